@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Boreholes and desurveying: from collar and survey to positions along the hole.
+
+#include <string>
+#include <vector>
+
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+/// One survey station. Angles are degrees; azimuth clockwise from grid north (+y); inclination from the downward
+/// vertical (0: straight down, 90: horizontal, 180: straight up).
+struct SurveyStation {
+    double depth = 0;  ///< measured along the hole
+    double azimuth_deg = 0;
+    double inclination_deg = 0;
+};
+
+enum class Desurvey { minimum_curvature, tangential, balanced_tangential };
+
+/// The path of a hole as a chain of arcs (minimum curvature) or straight legs.
+class Trajectory {
+  public:
+    /// A vertical hole from `collar` when there are no stations. Stations may come in any order and need none at
+    /// depth 0: the first one's direction then holds up to the collar, the last one's below it. Of stations at equal
+    /// depth the first counts.
+    /// \pre All numbers are finite.
+    Trajectory(const Vec3& collar, std::vector<SurveyStation> stations, Desurvey method = Desurvey::minimum_curvature);
+
+    /// Position at a measured depth (also between stations: along the arc; below the last: straight on). O(log n).
+    [[nodiscard]] Vec3 position(double depth) const;
+
+    [[nodiscard]] const std::vector<SurveyStation>& stations() const { return stations_; }
+
+  private:
+    std::vector<SurveyStation> stations_;  ///< ascending, first at depth 0
+    std::vector<Vec3> positions_;          ///< at the stations
+    Desurvey method_;
+};
+
+/// A borehole of the model.
+struct Borehole {
+    std::string id;                  ///< text as in the table: "0.0" and "0" differ
+    Vec3 collar;                     ///< frame-local
+    std::vector<Vec3> path;          ///< frame-local, from collar to the deepest record
+    std::vector<double> path_depth;  ///< measured depth of each path point
+};
+
+}  // namespace terratet

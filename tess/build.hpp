@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// From a site to a model: density edition, faults, hull box, refinement, values (paper, figure 11). The one path that
+/// the command line, tests and benchmarks take.
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "tess/cells.hpp"
+#include "tess/diagnostics.hpp"
+#include "tess/model.hpp"
+#include "tess/progress.hpp"
+
+namespace terratet {
+
+struct BuildOptions {
+    Box3 extent;                   ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
+    double pad = -1;               ///< negative: l_max
+    Criteria criteria;             ///< l_min 0: diagonal/100; l_max 0: 4 l_min
+    DensityMode density = DensityMode::canonical;
+    FaultOptions faults;
+    RefineOptions refine;
+    bool refine_enabled = true;    ///< false stops after the initial tessellation
+    std::string estimator;         ///< recorded in the model; the source below does the work
+};
+
+struct BuildReport {
+    std::size_t coincident = 0;      ///< samples merged
+    std::size_t outside_extent = 0;  ///< samples beyond a given extent: they feed the estimator only
+    DensityResult density;
+    std::vector<FaultAccount> faults;
+    std::size_t seeds = 0;
+    std::size_t domain_vertices = 0;
+    CellStatistics initial;
+    RefineReport refine;
+    CellStatistics final;
+    std::size_t fault_crossing_edges = 0;
+    std::vector<Fidelity> fidelity;
+    std::map<std::string, double> seconds;  ///< density, boundary, refine, estimate
+    Diagnostics diagnostics;
+};
+
+/// Makes the estimator once samples are merged and faults are prepared: it sees the site's samples and the faults' sheets,
+/// in frame-local coordinates, and both outlive it.
+using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
+
+/// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound is
+/// exceeded. The result does not depend on the order of the site's rows (R6).
+Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
+            const Progress& progress = {});
+
+}  // namespace terratet

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What is known of each cell of a finished model: the table behind VTU cell data, region volumes, voxel masks, and the
+/// report's percentages.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tess/model.hpp"
+
+namespace terratet {
+
+/// Columns in step with TetMesh::cells.
+struct CellTable {
+    std::vector<std::int32_t> region;       ///< fault block, 0…; −1 for gap cells and cells outside the extent
+    std::vector<std::int32_t> fault;        ///< fault whose gap the cell fills; −1 otherwise
+    std::vector<std::uint8_t> in_extent;    ///< 1 when the centroid lies in the extent
+    std::vector<Reason> reason;             ///< why it was left bad; none for good cells
+    std::vector<float> radius_edge;
+    std::vector<float> aspect;
+    std::vector<float> dihedral_min_deg;
+    std::int32_t region_count = 0;          ///< regions are numbered by their smallest cell
+};
+
+/// O(n). `mesh` is the model's own.
+CellTable describe_cells(const Model& model, const TetMesh& mesh);
+
+/// A gap cell joins both sides of one fault and nothing else. Returns the fault, or −1.
+std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices);
+
+/// Numbers of the report over the non-gap cells in the extent (DESIGN §5).
+struct CellStatistics {
+    std::size_t vertices = 0;
+    std::size_t tetrahedra = 0;        ///< all cells of the tessellation
+    std::size_t gap_tetrahedra = 0;
+    double skinny_percent = 0;         ///< R/ℓ above radius_edge
+    double flat_percent = 0;           ///< not skinny, β above aspect
+    double bad_percent = 0;            ///< breaks any insertion criterion in force, exempt or not
+    double dihedral_min_deg = 0;
+    double dihedral_p1_deg = 0;
+    double dihedral_p5_deg = 0;
+    double dihedral_median_deg = 0;
+    double edge_min = 0;               ///< of these cells
+    double edge_max = 0;
+    std::size_t regions = 0;
+};
+
+CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells);
+
+/// Edges within the extent that cross a fault without both ends being its seeds: F1 says none. Each edge once, as
+/// vertex indices, with the fault; an edge counts when its crossing point lies in the extent.
+struct CrossingEdge {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    std::int32_t fault = -1;
+};
+std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh);
+
+/// How well the tessellation's piecewise linear field agrees with all samples, dropped ones included, in the property's
+/// scale. A sample in no cell, or in one with a missing value, does not count.
+struct Fidelity {
+    double rms = 0;
+    double max = 0;
+    std::size_t count = 0;
+};
+std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh);  ///< one per property
+
+}  // namespace terratet

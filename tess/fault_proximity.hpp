@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Questions about faults: how near, and does a segment cross. Immutable after construction; all queries are const and
+/// safe from many threads.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tess/fault.hpp"
+
+namespace terratet {
+
+class FaultProximity {
+  public:
+    explicit FaultProximity(std::span<const Fault> faults);
+    ~FaultProximity();
+    FaultProximity(FaultProximity&&) noexcept;
+    FaultProximity& operator=(FaultProximity&&) noexcept;
+
+    [[nodiscard]] bool empty() const;
+
+    /// The first fault (smallest index) whose sheet or margin is nearer to p than its protection radius; −1 when none.
+    /// Constant time far from all faults.
+    [[nodiscard]] std::int32_t protecting_fault(const Vec3& p) const;
+
+    /// Does the closed segment meet fault f's sheet? Exact predicates. O(log n).
+    [[nodiscard]] bool crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const;
+
+    /// Does it meet any fault's sheet, but for `except` (−1: all count)?
+    [[nodiscard]] bool crosses_any(const Vec3& a, const Vec3& b, std::int32_t except = -1) const;
+
+    /// Distance from p to fault f's sheet; infinity for a fault without triangles.
+    [[nodiscard]] double distance_to_sheet(std::int32_t fault, const Vec3& p) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terratet

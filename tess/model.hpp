@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// The model: all that is kept. The tessellation is rebuilt from the vertices.
+
+#include <string>
+#include <vector>
+
+#include "tess/borehole.hpp"
+#include "tess/criteria.hpp"
+#include "tess/density.hpp"
+#include "tess/domain.hpp"
+#include "tess/fault.hpp"
+#include "tess/frame.hpp"
+#include "tess/property.hpp"
+#include "tess/refine.hpp"
+#include "tess/samples.hpp"
+#include "tess/surface.hpp"
+#include "tess/tessellation.hpp"
+
+namespace terratet {
+
+/// What was measured, in one frame: the readers' result. Boreholes sorted by id, samples and surfaces in canonical order.
+struct Site {
+    Frame frame;
+    std::vector<Property> properties;
+    std::vector<Borehole> boreholes;
+    Samples samples;
+    std::vector<Surface> surfaces;
+};
+
+/// A site with its tessellation's recipe and vertices.
+struct Model : Site {
+    Domain domain;
+    Criteria criteria;
+    DensityMode density = DensityMode::canonical;
+    FaultOptions fault_options;
+    std::vector<Fault> faults;        ///< prepared from the surfaces of kind fault
+    std::vector<Vertex> vertices;     ///< ascending id
+    VertexValues vertex_values;       ///< in step with vertices
+    std::string estimator;            ///< its full specification, e.g. "idw:power=2:max_points=12"
+};
+
+/// The tessellation of a model's vertices.
+Tessellation tessellate(const Model& model);
+
+}  // namespace terratet

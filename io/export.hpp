@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Writers. Each takes the same view of a finished model and produces one file, whole or not at all, deterministic to
+/// the byte. docs/outputs.md describes what each contains.
+///
+/// | extension | format | writer |
+/// |---|---|---|
+/// | .vtu | VTK unstructured grid, appended raw | write_vtu |
+/// | .glb .gltf | glTF 2.0 scene | write_gltf |
+/// | .vdb | OpenVDB, one FloatGrid a property | write_vdb |
+/// | .csv | vertices with values | write_csv |
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interp/lattice.hpp"
+#include "tess/cells.hpp"
+#include "tess/model.hpp"
+#include "tess/progress.hpp"
+
+namespace terratet {
+
+/// What every writer sees; all of one model.
+struct ModelView {
+    const Model& model;
+    const TetMesh& mesh;
+    const CellTable& cells;
+};
+
+struct ExportOptions {
+    std::string format;        ///< overrides the extension: VTU, GLTF, VDB, CSV
+    bool overwrite = false;
+    bool clip = false;         ///< VTU: only cells in the extent, cut at its planes
+    bool compress = false;     ///< VTU: zlib blocks
+    bool collapse_gap = false;     ///< reserved for conforming faults; must be false
+    Vec3 voxel_size{0, 0, 0};      ///< 0: the extent's longest side / 128, rounded to 1-2-5
+    bool local_origin = false;     ///< VDB: grid in frame-local coordinates, for float-based tools
+    std::string color_property;    ///< glTF: which property colours the scene; empty: the first
+    std::string color_map = "viridis";
+    Progress progress;
+};
+
+struct OutputRecord {
+    std::string path;
+    std::uint64_t bytes = 0;
+};
+
+/// Dispatches by extension or options.format. Throws UsageError for an unknown one (lists those there are).
+OutputRecord export_model(const ModelView& view, const std::string& path, const ExportOptions& options);
+
+/// The format that a path would get, upper case; throws UsageError as export_model does. For checks before any work.
+std::string output_format(const std::string& path, const std::string& override_format = {});
+
+OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_gltf(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
+
+/// The voxel size in force for a view: the given one, or the default.
+Vec3 resolved_voxel_size(const ModelView& view, const ExportOptions& options);
+
+}  // namespace terratet

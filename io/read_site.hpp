@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// All inputs of a model into one Site: one frame, one CRS, canonical order.
+///
+/// CRS: each input's own (given with it, or in the file), else the general one; all are transformed to the target. With no
+/// target, the first projected CRS among boreholes, samples, faults is it; if all are geographic, the UTM zone of the data's
+/// middle, noted. An input without any CRS is an InputError that names -s_srs.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/source.hpp"
+#include "tess/borehole.hpp"
+#include "tess/diagnostics.hpp"
+#include "tess/model.hpp"
+#include "tess/progress.hpp"
+
+namespace terratet {
+
+/// What a survey's dip column means. automatic: down-positive or down-negative by majority of the signs, noted.
+enum class DipConvention { automatic, down_positive, down_negative, inclination };
+enum class AzimuthReference { grid, true_north, magnetic };
+
+struct SiteInputs {
+    std::vector<Source> boreholes;  ///< collar tables
+    std::vector<Source> surveys;
+    std::vector<Source> logs;       ///< interval (from, to) or point (depth) logs
+    std::vector<Source> samples;    ///< x, y, z, properties
+    std::vector<Source> faults;
+    std::vector<Source> surfaces;   ///< horizons
+
+    std::string source_crs;  ///< -s_srs
+    std::string target_crs;  ///< -t_srs
+    std::vector<std::string> properties;  ///< NAME[:log10][:categorical][:unit=U]; empty: every numeric column
+    std::vector<std::pair<std::string, std::string>> columns;  ///< meaning → column name
+    Desurvey desurvey = Desurvey::minimum_curvature;
+    DipConvention dip = DipConvention::automatic;
+    AzimuthReference azimuth = AzimuthReference::grid;
+    double declination_deg = 0;     ///< magnetic only, east positive
+    std::string depth_unit;         ///< of depths and lengths along holes: "m", "ft"; empty: the target CRS's
+    bool strict = false;            ///< the first dirty record is an InputError
+};
+
+/// Counts for the report and the summary.
+struct ReadCounts {
+    std::size_t boreholes = 0;
+    std::size_t samples = 0;
+    std::size_t faults = 0;
+};
+
+/// Reads everything. Dirty records go to `diagnostics` and are skipped; throws InputError when an input cannot be used at
+/// all: missing, without CRS, without id or coordinates, no numeric column, no usable row.
+Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& counts, const Progress& progress = {});
+
+}  // namespace terratet

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// How an input is named: `FILE[,layer=L][,srs=CRS][,where=…]`. FILE is anything GDAL opens, /vsizip/, /vsicurl/, /vsistdin/ and
+/// PG: connection strings included.
+
+#include <string>
+#include <vector>
+
+namespace terratet {
+
+struct Source {
+    std::string path;
+    std::string layer;  ///< empty: the first
+    std::string srs;    ///< empty: what the file says, then the general -s_srs
+    std::string where;  ///< attribute filter in OGR SQL
+    std::string sql;    ///< a statement instead of a layer
+    std::vector<std::string> open_options;  ///< KEY=VALUE, handed to the driver
+
+    /// For messages: the path and the layer.
+    [[nodiscard]] std::string describe() const;
+};
+
+/// Splits at commas that precede a known key, so that file names may hold commas. Throws UsageError on an unknown key.
+Source parse_source(const std::string& text);
+
+/// A length with an optional unit, `20`, `20m`, `65ft`, in units of `metres_per_unit`. Throws UsageError.
+double parse_length(const std::string& text, double metres_per_unit);
+
+}  // namespace terratet

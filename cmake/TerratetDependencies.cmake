@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Everything from the system, nothing downloaded. Also included by the installed package: static libraries hand their
+# private dependencies on to whoever links them.
+find_package(CGAL 5.5 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED CONFIG)
+find_package(TBB REQUIRED)
+find_package(GDAL 3.6 REQUIRED)
+find_package(PROJ REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(fmt REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+# OpenVDB ships a find module, beside its library.
+find_path(TERRATET_OPENVDB_MODULE FindOpenVDB.cmake
+          PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB /usr/lib/cmake/OpenVDB NO_CACHE)
+list(APPEND CMAKE_MODULE_PATH ${TERRATET_OPENVDB_MODULE})
+find_package(OpenVDB 10 REQUIRED COMPONENTS openvdb)

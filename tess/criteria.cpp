@@ -1,2 +1,50 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/criteria.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tess/error.hpp"
+
+namespace terratet {
+
+namespace {
+
+void require(bool condition, const std::string& message) {
+    if (!condition) {
+        throw UsageError(message);
+    }
+}
+
+void require_limit(double value, double smallest, const std::string& option) {
+    require(std::isfinite(value) && (value == 0 || value >= smallest),
+            option + " is " + std::to_string(value) + "; it must be 0 (off) or at least " + std::to_string(smallest));
+}
+
+}  // namespace
+
+bool Criteria::has_variation() const {
+    return std::ranges::any_of(variation, [](const VariationLimits& v) { return v.df_min > 0 || v.df_max > 0; });
+}
+
+void validate(const Criteria& criteria) {
+    require(std::isfinite(criteria.l_min) && criteria.l_min > 0, "--lmin must be a positive length");
+    require(std::isfinite(criteria.l_max) && criteria.l_max > 0, "--lmax must be a positive length");
+    require(criteria.l_max >= criteria.l_min, "--lmax (" + std::to_string(criteria.l_max) + ") is below --lmin (" +
+                                                  std::to_string(criteria.l_min) + ")");
+    require_limit(criteria.radius_edge, 1, "--radius-edge");
+    require_limit(criteria.aspect, 3, "--aspect");
+    require_limit(criteria.v_min, 0, "--vmin");
+    require_limit(criteria.v_max, 0, "--vmax");
+    require(std::isfinite(criteria.dihedral_deg) && criteria.dihedral_deg >= 0 && criteria.dihedral_deg < 70.5,
+            "--dihedral must lie in 0…70.5 degrees, the regular cell's");
+    for (const VariationLimits& limits : criteria.variation) {
+        require_limit(limits.df_min, 0, "--df-min");
+        require_limit(limits.df_max, 0, "--df-max");
+        require(limits.df_max == 0 || limits.df_min <= limits.df_max, "--df-min is above --df-max");
+    }
+}
+
+}  // namespace terratet

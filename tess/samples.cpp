@@ -1,2 +1,143 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/samples.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "tess/property.hpp"
+
+namespace terratet {
+
+namespace {
+
+/// Total order on doubles with NaN last, so that sorting never depends on where NaNs started.
+int compare(double a, double b) {
+    if (std::isnan(a) || std::isnan(b)) {
+        return static_cast<int>(std::isnan(a)) - static_cast<int>(std::isnan(b));
+    }
+    return a < b ? -1 : (a > b ? 1 : 0);
+}
+
+int compare(const Vec3& a, const Vec3& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (const int order = compare(a[axis], b[axis])) {
+            return order;
+        }
+    }
+    return 0;
+}
+
+int compare_values(const Samples& samples, std::uint32_t a, std::uint32_t b) {
+    for (const auto& column : samples.values) {
+        if (const int order = compare(column[a], column[b])) {
+            return order;
+        }
+    }
+    return compare(samples.length[a], samples.length[b]);
+}
+
+double mean(const Property& property, const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) {
+        sum += to_scale(property, value);
+    }
+    return from_scale(property, sum / static_cast<double>(values.size()));
+}
+
+double most_frequent(const std::vector<double>& values) {
+    std::map<double, int> counts;
+    for (const double value : values) {
+        ++counts[value];
+    }
+    return std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first;
+}
+
+/// The one value that stands for a group of coincident samples; NaN when none of them has it.
+double merged_value(const Property& property, const std::vector<double>& column, std::span<const std::uint32_t> group) {
+    std::vector<double> present;
+    for (const std::uint32_t i : group) {
+        if (!std::isnan(to_scale(property, column[i]))) {
+            present.push_back(column[i]);
+        }
+    }
+    if (present.empty()) {
+        return missing;
+    }
+    if (std::ranges::all_of(present, [&](double value) { return value == present.front(); })) {
+        return present.front();  // not through a logarithm and back: V1 promises the measured value
+    }
+    return property.kind == Kind::categorical ? most_frequent(present) : mean(property, present);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> canonical_order(const Samples& samples) {
+    std::vector<std::uint32_t> order(samples.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        const auto owner_a = static_cast<std::uint32_t>(samples.borehole[a]);  // −1, loose, becomes the largest
+        const auto owner_b = static_cast<std::uint32_t>(samples.borehole[b]);
+        if (owner_a != owner_b) {
+            return owner_a < owner_b;
+        }
+        if (const int depth = compare(samples.depth[a], samples.depth[b])) {
+            return depth < 0;
+        }
+        if (const int place = compare(samples.positions[a], samples.positions[b])) {
+            return place < 0;
+        }
+        return compare_values(samples, a, b) < 0;
+    });
+    return order;
+}
+
+Samples selected(const Samples& samples, const std::vector<std::uint32_t>& order) {
+    const auto pick = [&](const auto& column) {
+        std::decay_t<decltype(column)> result;
+        result.reserve(order.size());
+        for (const std::uint32_t i : order) {
+            result.push_back(column[i]);
+        }
+        return result;
+    };
+    Samples result{pick(samples.positions), pick(samples.borehole), pick(samples.depth), pick(samples.length), {}};
+    for (const auto& column : samples.values) {
+        result.values.push_back(pick(column));
+    }
+    return result;
+}
+
+MergeReport merge_coincident(Samples& samples, const std::vector<Property>& properties) {
+    std::vector<std::uint32_t> order(samples.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return compare(samples.positions[a], samples.positions[b]) < 0;
+    });
+    std::vector<std::uint32_t> survivors;
+    for (std::size_t begin = 0; begin < order.size();) {
+        std::size_t end = begin + 1;
+        while (end < order.size() && samples.positions[order[end]] == samples.positions[order[begin]]) {
+            ++end;
+        }
+        const std::span group(order.data() + begin, end - begin);
+        if (group.size() > 1) {
+            for (std::size_t p = 0; p < samples.values.size(); ++p) {
+                samples.values[p][group.front()] = merged_value(properties[p], samples.values[p], group);
+            }
+        }
+        survivors.push_back(group.front());
+        begin = end;
+    }
+    const MergeReport report{samples.size() - survivors.size()};
+    if (report.merged > 0) {
+        std::ranges::sort(survivors);
+        samples = selected(samples, survivors);
+    }
+    return report;
+}
+
+}  // namespace terratet

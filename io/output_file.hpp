@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Output whole or not at all: bytes go to a temporary file in the same folder; commit() syncs and renames it. Destroyed
-/// without commit, nothing remains.
+/// Output whole or not at all: bytes go to a temporary file in the same folder; commit() syncs and renames it.
+/// Destroyed without commit, nothing remains. (A killed process leaves its temporary file, `.terratet-*`, and what was
+/// there before.)
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -15,7 +17,8 @@ namespace terratet {
 
 class OutputFile {
   public:
-    /// Throws Error: the folder is missing or not writable, or `path` exists and `overwrite` is false.
+    /// Throws Error: the folder is missing or not writable, `path` is a folder or a device, or it exists and
+    /// `overwrite` is false. A symbolic link is followed: the link stays, its target is replaced.
     OutputFile(std::string path, bool overwrite);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -25,21 +28,26 @@ class OutputFile {
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    /// For libraries that open files themselves; close() must be called before they do.
+    /// For libraries that open files themselves; close() must be called before they do. It ends in the extension of the
+    /// path, since such libraries go by it.
     [[nodiscard]] const std::string& temporary_path() const { return temporary_; }
     void close();
 
-    /// fsync, rename, fsync of the folder. Returns the file's size.
+    /// fsync, rename, fsync of the folder. Returns the file's size. Without `overwrite`, a file that came to be at the
+    /// path meanwhile is refused, not replaced. Throws Error; nothing of this output remains then.
     std::uint64_t commit();
 
   private:
-    std::string path_;
+    std::string path_;    ///< as given, for messages
+    std::string target_;  ///< symbolic links resolved
     std::string temporary_;
     std::FILE* file_ = nullptr;
+    bool overwrite_ = false;
     bool committed_ = false;
 };
 
-/// Refuses an existing output early, before hours of work. Throws Error naming --overwrite.
+/// Refuses an existing output early, before hours of work; also a missing or read-only folder. Throws Error, naming
+/// --overwrite for an existing file.
 void require_writable(const std::string& path, bool overwrite);
 
 }  // namespace terratet

@@ -104,7 +104,7 @@ def log10_conductivity(point, noise):
     u, v, w = (sum(o * e for o, e in zip(offset, axis)) for axis in (along, down, normal))
     beyond = math.hypot(max(0.0, abs(u) - SPACING * (ALONG - 1) / 2), max(0.0, abs(v) - SPACING * (DOWN - 1) / 2))
     depth = -point[2]
-    trend = -8.9 - 2.2 * (1.0 - math.exp(-max(depth, 0.0) / 420.0))
+    trend = -8.8 - 3.3 * (1.0 - math.exp(-max(depth, 0.0) / 420.0))
     wave = 0.25 * math.sin((point[0] - CENTRE[0]) / 90.0) * math.cos((point[1] - CENTRE[1]) / 110.0)
     raised = 2.5 * math.exp(-(w / 35.0) ** 2) * math.exp(-(beyond / 60.0) ** 2)
     return max(-12.0, min(-8.0, trend + wave + raised + noise))

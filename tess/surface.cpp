@@ -1,2 +1,49 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace terratet {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// A horizontal direction is undefined where the mean normal leans from the vertical by less than rounding can tell.
+constexpr double least_lean = 1e-12;
+
+}  // namespace
+
+SurfaceStatistics statistics(const Surface& surface) {
+    SurfaceStatistics result;
+    Vec3 upward_sum;
+    double dip_sum = 0;
+    for (const Triangle& t : surface.triangles) {
+        const Vec3& a = surface.vertices[t[0]];
+        const Vec3 twice_area = cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a);
+        const double area = length(twice_area) / 2;
+        if (!(area > 0)) {
+            continue;
+        }
+        const double dip = std::atan2(std::hypot(twice_area.x, twice_area.y), std::abs(twice_area.z)) * degrees;
+        const bool first = result.area == 0;
+        result.dip_min_deg = first ? dip : std::min(result.dip_min_deg, dip);
+        result.dip_max_deg = first ? dip : std::max(result.dip_max_deg, dip);
+        result.area += area;
+        dip_sum += area * dip;
+        upward_sum = upward_sum + (twice_area.z < 0 ? -0.5 : 0.5) * twice_area;
+    }
+    if (result.area > 0) {
+        result.dip_mean_deg = dip_sum / result.area;
+        if (std::hypot(upward_sum.x, upward_sum.y) > least_lean * result.area) {
+            const double direction = std::atan2(upward_sum.x, upward_sum.y) * degrees;
+            result.dip_direction_deg = direction < 0 ? direction + 360 : direction;
+        }
+    }
+    return result;
+}
+
+}  // namespace terratet

@@ -1,2 +1,273 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/build.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_set>
+
+namespace terratet {
+
+namespace {
+
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+/// Boreholes by id, samples in canonical order and without coincident ones, surfaces by name and content.
+void canonicalise(Site& site, BuildReport& report) {
+    std::vector<std::int32_t> order(site.boreholes.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = static_cast<std::int32_t>(i);
+    }
+    std::ranges::sort(order, {}, [&](std::int32_t i) { return site.boreholes[static_cast<std::size_t>(i)].id; });
+    std::vector<std::int32_t> rank(order.size());
+    std::vector<Borehole> boreholes;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        rank[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+        boreholes.push_back(std::move(site.boreholes[static_cast<std::size_t>(order[i])]));
+    }
+    site.boreholes = std::move(boreholes);
+    for (std::int32_t& owner : site.samples.borehole) {
+        owner = owner < 0 ? -1 : rank[static_cast<std::size_t>(owner)];
+    }
+    site.samples = selected(site.samples, canonical_order(site.samples));
+    report.coincident = merge_coincident(site.samples, site.properties).merged;
+    std::ranges::stable_sort(site.surfaces, [](const Surface& a, const Surface& b) {
+        return std::tie(a.name, a.vertices, a.triangles) < std::tie(b.name, b.vertices, b.triangles);
+    });
+}
+
+Box3 data_box(const Site& site) {
+    Box3 box = bounding_box(site.samples.positions);
+    for (const Borehole& borehole : site.boreholes) {
+        for (const Vec3& p : borehole.path) {
+            box.extend(p);
+        }
+    }
+    return box;
+}
+
+/// Fills in the defaults: resolution from the size of the data, extent from data and resolution.
+void resolve_resolution(const Site& site, const BuildOptions& options, Model& model) {
+    const Box3 data = data_box(site);
+    if (data.empty() && options.extent.empty()) {
+        throw InputError("there is nothing to build from: no usable sample or borehole, and no --extent");
+    }
+    const double diagonal = (options.extent.empty() ? data : options.extent).diagonal();
+    model.criteria = options.criteria;
+    if (model.criteria.l_min == 0) {
+        model.criteria.l_min = diagonal > 0 ? diagonal / 100 : 1;
+    }
+    if (model.criteria.l_max == 0) {
+        model.criteria.l_max = 4 * model.criteria.l_min;
+    }
+    model.criteria.variation.resize(site.properties.size());
+    validate(model.criteria);
+    Box3 extent = options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad)
+                                         : options.extent;
+    extent = {model.frame.snapped(extent.lo), model.frame.snapped(extent.hi)};
+    const Vec3 size = extent.size();
+    if (std::min({size.x, size.y, size.z}) < model.criteria.l_min) {
+        throw UsageError("the extent (" + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " +
+                         std::to_string(size.z) + ") is thinner than --lmin " + std::to_string(model.criteria.l_min) +
+                         "; give a larger --extent or --pad, or a smaller --lmin");
+    }
+    model.domain = {extent, extent};
+}
+
+void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
+    model.fault_options = options.faults;
+    FaultPreparation preparation = prepare_faults(model.surfaces, model.domain.extent, model.frame,
+                                                  model.criteria.l_min, options.faults, progress);
+    model.faults = std::move(preparation.faults);
+    report.faults = std::move(preparation.accounts);
+    if (!model.faults.empty()) {
+        const Box3 hull = model.domain.extent.grown(hull_margin(options.faults, model.criteria.l_min));
+        model.domain.hull = {model.frame.snapped(hull.lo), model.frame.snapped(hull.hi)};
+    }
+}
+
+/// The samples that lie in the extent, as indices.
+std::vector<std::uint32_t> inside_extent(const Model& model, BuildReport& report) {
+    std::vector<std::uint32_t> inside;
+    for (std::uint32_t i = 0; i < model.samples.size(); ++i) {
+        if (model.domain.extent.contains(model.samples.positions[i])) {
+            inside.push_back(i);
+        }
+    }
+    report.outside_extent = model.samples.size() - inside.size();
+    return inside;
+}
+
+DensityResult thin(const Model& model, const std::vector<std::uint32_t>& inside, DensityMode mode,
+                   const FaultProximity& proximity) {
+    DensityResult result = edit_density(selected(model.samples, inside), model.criteria.l_min, mode, proximity);
+    for (auto* indices : {&result.kept, &result.near_faults}) {
+        for (std::uint32_t& i : *indices) {
+            i = inside[i];
+        }
+    }
+    return result;
+}
+
+struct PositionHash {
+    std::size_t operator()(const Vec3& p) const {
+        std::size_t h = 0;
+        for (const double x : {p.x, p.y, p.z}) {
+            h = h * 0x9e3779b97f4a7c15U + std::hash<double>()(x);
+        }
+        return h;
+    }
+};
+
+/// The initial vertices with their ids, in canonical order: samples, seeds, box.
+class InitialVertices {
+  public:
+    explicit InitialVertices(Model& model) : model_(model) {}
+
+    void add(const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
+        if (model_.domain.hull.contains(position) && taken_.insert(position).second) {
+            model_.vertices.push_back({model_.vertices.size(), position, role, owner, side});
+        }
+    }
+
+    void add_samples(const std::vector<std::uint32_t>& kept) {
+        for (const std::uint32_t i : kept) {
+            add(model_.samples.positions[i], Role::sample, static_cast<std::int32_t>(i), 0);
+        }
+    }
+    void add_seeds() {
+        for (std::size_t f = 0; f < model_.faults.size(); ++f) {
+            for (const Seed& seed : model_.faults[f].seeds) {
+                add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
+            }
+        }
+    }
+    void add_box() {
+        std::vector<Vec3> obstacles;
+        for (const Vertex& vertex : model_.vertices) {
+            obstacles.push_back(vertex.position);
+        }
+        for (const Vec3& p :
+             face_grid(model_.domain.hull, model_.criteria.l_min, model_.criteria.l_max, obstacles, model_.frame)) {
+            add(p, Role::domain, -1, 0);
+        }
+    }
+
+  private:
+    Model& model_;
+    std::unordered_set<Vec3, PositionHash> taken_;
+};
+
+/// Values of the initial vertices: a sample's own (V1), the estimator's elsewhere and where a sample lacks a property.
+void assign_values(Model& model, const ValueSource& source) {
+    std::vector<ValueQuery> queries;
+    for (const Vertex& vertex : model.vertices) {
+        queries.push_back({vertex.position, vertex.role == Role::seed ? vertex.owner : -1, vertex.side});
+    }
+    ValueBatch batch = source(queries);
+    for (std::size_t i = 0; i < model.vertices.size(); ++i) {
+        if (model.vertices[i].role != Role::sample) {
+            continue;
+        }
+        bool complete = true;
+        for (std::size_t property = 0; property < model.properties.size(); ++property) {
+            const double measured = model.samples.values[property][static_cast<std::size_t>(model.vertices[i].owner)];
+            complete = complete && !std::isnan(measured);
+            if (!std::isnan(measured)) {
+                batch.values[property][i] = measured;
+            }
+        }
+        if (complete) {
+            batch.extrapolation[i] = 0;
+        }
+    }
+    model.vertex_values = {std::move(batch.values), std::move(batch.extrapolation)};
+}
+
+CellStatistics statistics(const Model& model, const Tessellation& tessellation, BuildReport* final_report) {
+    const TetMesh mesh = tessellation.mesh();
+    const CellTable cells = describe_cells(model, mesh);
+    if (final_report != nullptr) {
+        for (std::size_t c = 0; c < cells.reason.size(); ++c) {
+            if (cells.reason[c] != Reason::none && cells.reason[c] != Reason::fault_gap) {
+                ++final_report->refine.skipped[cells.reason[c]];
+            }
+        }
+        final_report->fault_crossing_edges = fault_crossing_edges(model, mesh).size();
+        final_report->fidelity = fidelity(model, mesh);
+    }
+    return cell_statistics(model, mesh, cells);
+}
+
+}  // namespace
+
+Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
+            const Progress& progress) {
+    Model model;
+    canonicalise(site, report);
+    static_cast<Site&>(model) = std::move(site);
+    resolve_resolution(model, options, model);
+    model.density = options.density;
+    model.estimator = options.estimator;
+    {
+        const Stopwatch watch(report.seconds["boundary"]);
+        prepare_boundary(options, model, report, progress);
+    }
+    const FaultProximity proximity(model.faults);
+    InitialVertices initial(model);
+    {
+        const Stopwatch watch(report.seconds["density"]);
+        report_progress(progress, "density", 0);
+        report.density = thin(model, inside_extent(model, report), options.density, proximity);
+        initial.add_samples(report.density.kept);
+    }
+    {
+        const Stopwatch watch(report.seconds["boundary"]);
+        initial.add_seeds();
+        report.seeds = model.vertices.size() - report.density.kept.size();
+        initial.add_box();
+        report.domain_vertices = model.vertices.size() - report.density.kept.size() - report.seeds;
+    }
+    ValueSource source;
+    double estimating = 0;
+    {
+        const Stopwatch watch(estimating);
+        report_progress(progress, "estimate", 0);
+        source = factory(model, proximity);
+        assign_values(model, source);
+    }
+    const ValueSource timed_source = [&](std::span<const ValueQuery> queries) {
+        const Stopwatch watch(estimating);
+        return source(queries);
+    };
+    Tessellation tessellation;
+    {
+        const Stopwatch watch(report.seconds["refine"]);
+        tessellation.insert(model.vertices);
+        report.initial = statistics(model, tessellation, nullptr);
+        if (options.refine_enabled) {
+            RefineOptions refine_options = options.refine;
+            refine_options.progress = progress;
+            const double before = estimating;
+            report.refine = refine(tessellation, model.vertex_values, model.domain, model.frame, proximity,
+                                   model.criteria, model.properties, timed_source, refine_options);
+            report.seconds["refine"] -= estimating - before;
+        }
+        model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
+        report.final = statistics(model, tessellation, &report);
+    }
+    report.seconds["estimate"] = estimating;
+    return model;
+}
+
+}  // namespace terratet

@@ -1,2 +1,279 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "tess/insertion_rule.hpp"
+#include "tess/mesh_walk.hpp"
+#include "tess/point_grid.hpp"
+#include "tess/quality.hpp"
+
+namespace terratet {
+
+namespace {
+
+constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+CellPoints corners(const TetMesh& mesh, const std::array<std::uint32_t, 4>& cell) {
+    return {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
+}
+
+JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
+    std::ranges::sort(cell);
+    return {cell, corners(mesh, cell)};
+}
+
+/// Why the refiner left a cell as it is: the refiner's own rule, asked again, plus the distance of a projected point, which
+/// needs all vertices.
+class Explainer {
+  public:
+    Explainer(const Model& model, const TetMesh& mesh)
+        : mesh_(mesh),
+          proximity_(model.faults),
+          rule_(model.criteria, model.domain, model.frame, proximity_, model.properties, model.vertex_values) {}
+
+    Reason operator()(const std::array<std::uint32_t, 4>& cell) {
+        const JudgedCell judged_cell = judged(mesh_, cell);
+        if (rule_.violation(judged_cell) <= 1) {
+            return Reason::none;
+        }
+        if (rule_.violation_in_force(judged_cell) <= 1) {
+            return Reason::smooth;
+        }
+        const Proposal proposal = rule_.propose(judged_cell);
+        if (proposal.reason != Reason::none) {
+            return proposal.reason;
+        }
+        if (vertices().any_within(proposal.point, rule_.l_min())) {
+            return proposal.projected ? Reason::near_face : Reason::too_close;
+        }
+        return Reason::none;
+    }
+
+  private:
+    const PointGrid& vertices() {
+        if (!vertices_) {
+            vertices_.emplace(rule_.l_min());
+            for (const Vec3& p : mesh_.points) {
+                vertices_->insert(p);
+            }
+        }
+        return *vertices_;
+    }
+
+    const TetMesh& mesh_;
+    FaultProximity proximity_;
+    InsertionRule rule_;
+    std::optional<PointGrid> vertices_;
+};
+
+/// Connected components of the cells in the extent and outside the gaps, numbered by their smallest cell.
+void label_regions(const TetMesh& mesh, CellTable& table) {
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t first = 0; first < mesh.cells.size(); ++first) {
+        const auto inside = [&](std::uint32_t c) { return table.in_extent[c] != 0 && table.fault[c] < 0; };
+        if (table.region[first] >= 0 || !inside(first)) {
+            continue;
+        }
+        table.region[first] = table.region_count;
+        stack.push_back(first);
+        while (!stack.empty()) {
+            const std::uint32_t cell = stack.back();
+            stack.pop_back();
+            for (const std::int32_t next : mesh.neighbours[cell]) {
+                const auto neighbour = static_cast<std::uint32_t>(next);
+                if (next >= 0 && table.region[neighbour] < 0 && inside(neighbour)) {
+                    table.region[neighbour] = table.region_count;
+                    stack.push_back(neighbour);
+                }
+            }
+        }
+        ++table.region_count;
+    }
+}
+
+double percent(std::size_t part, std::size_t whole) {
+    return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Value at fraction q of a sorted sequence, nearest rank.
+double quantile(const std::vector<float>& sorted, double q) {
+    return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
+
+bool overlap(const Box3& box, const Vec3& a, const Vec3& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::max(a[axis], b[axis]) < box.lo[axis] || std::min(a[axis], b[axis]) > box.hi[axis]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices) {
+    const Vertex& first = vertices[cell[0]];
+    bool both_sides = false;
+    for (const std::uint32_t v : cell) {
+        const Vertex& vertex = vertices[v];
+        if (vertex.role != Role::seed || vertex.owner != first.owner) {
+            return -1;
+        }
+        both_sides = both_sides || vertex.side != first.side;
+    }
+    return both_sides ? first.owner : -1;
+}
+
+CellTable describe_cells(const Model& model, const TetMesh& mesh) {
+    const std::size_t n = mesh.cells.size();
+    CellTable table;
+    table.region.assign(n, -1);
+    table.fault.resize(n);
+    table.in_extent.resize(n);
+    table.reason.resize(n);
+    table.radius_edge.resize(n);
+    table.aspect.resize(n);
+    table.dihedral_min_deg.resize(n);
+    Explainer explain(model, mesh);
+    for (std::size_t c = 0; c < n; ++c) {
+        const CellPoints points = corners(mesh, mesh.cells[c]);
+        const CellQuality quality = cell_quality(points);
+        table.radius_edge[c] = static_cast<float>(quality.radius_edge);
+        table.aspect[c] = static_cast<float>(quality.aspect);
+        table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
+        table.in_extent[c] = model.domain.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3]));
+        table.fault[c] = gap_fault(mesh.cells[c], model.vertices);
+        table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
+    }
+    label_regions(mesh, table);
+    return table;
+}
+
+CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells) {
+    CellStatistics s;
+    s.vertices = mesh.points.size();
+    s.tetrahedra = mesh.cells.size();
+    s.regions = static_cast<std::size_t>(cells.region_count);
+    const FaultProximity proximity(model.faults);
+    const InsertionRule rule(model.criteria, model.domain, model.frame, proximity, model.properties,
+                             model.vertex_values);
+    std::size_t skinny = 0;
+    std::size_t flat = 0;
+    std::size_t bad = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0;
+    std::vector<float> dihedrals;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        if (cells.fault[c] >= 0) {
+            ++s.gap_tetrahedra;
+            continue;
+        }
+        if (cells.in_extent[c] == 0) {
+            continue;
+        }
+        const bool is_skinny = model.criteria.radius_edge > 0 && cells.radius_edge[c] > model.criteria.radius_edge;
+        const bool is_flat = !is_skinny && model.criteria.aspect > 0 && cells.aspect[c] > model.criteria.aspect;
+        skinny += is_skinny ? 1 : 0;
+        flat += is_flat ? 1 : 0;
+        bad += is_skinny || is_flat || rule.violation(judged(mesh, mesh.cells[c])) > 1 ? 1 : 0;
+        dihedrals.push_back(cells.dihedral_min_deg[c]);
+        for (const auto& [i, j] : cell_edges) {
+            const double d = squared_distance(mesh.points[mesh.cells[c][i]], mesh.points[mesh.cells[c][j]]);
+            shortest = std::min(shortest, d);
+            longest = std::max(longest, d);
+        }
+    }
+    std::ranges::sort(dihedrals);
+    s.skinny_percent = percent(skinny, dihedrals.size());
+    s.flat_percent = percent(flat, dihedrals.size());
+    s.bad_percent = percent(bad, dihedrals.size());
+    s.dihedral_min_deg = quantile(dihedrals, 0);
+    s.dihedral_p1_deg = quantile(dihedrals, 0.01);
+    s.dihedral_p5_deg = quantile(dihedrals, 0.05);
+    s.dihedral_median_deg = quantile(dihedrals, 0.5);
+    s.edge_min = dihedrals.empty() ? 0 : std::sqrt(shortest);
+    s.edge_max = std::sqrt(longest);
+    return s;
+}
+
+std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh) {
+    std::vector<CrossingEdge> crossing;
+    const FaultProximity proximity(model.faults);
+    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        const auto fault = static_cast<std::int32_t>(f);
+        const Box3 box = bounding_box(model.faults[f].sheet.vertices);
+        const auto is_own_seed = [&](std::uint32_t v) {
+            return model.vertices[v].role == Role::seed && model.vertices[v].owner == fault;
+        };
+        std::vector<std::array<std::uint32_t, 2>> suspects;
+        for (const auto& cell : mesh.cells) {
+            for (const auto& [i, j] : cell_edges) {
+                const auto [a, b] = std::minmax(cell[i], cell[j]);
+                if (overlap(box, mesh.points[a], mesh.points[b]) && !(is_own_seed(a) && is_own_seed(b))) {
+                    suspects.push_back({a, b});
+                }
+            }
+        }
+        std::ranges::sort(suspects);
+        suspects.erase(std::ranges::unique(suspects).begin(), suspects.end());
+        for (const auto& [a, b] : suspects) {
+            if (proximity.crosses(fault, mesh.points[a], mesh.points[b])) {
+                crossing.push_back({a, b, fault});
+            }
+        }
+    }
+    return crossing;
+}
+
+std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh) {
+    std::vector<Fidelity> result(model.properties.size());
+    std::vector<double> squares(model.properties.size(), 0);
+    MeshWalk walk(mesh);
+    for (std::size_t i = 0; i < model.samples.size(); ++i) {
+        const Vec3& p = model.samples.positions[i];
+        if (!model.domain.hull.contains(p)) {
+            continue;
+        }
+        auto position = walk.locate(p);
+        if (!position) {
+            continue;
+        }
+        keep_to_own_side(*position, p, mesh, model.vertices);
+        for (std::size_t property = 0; property < result.size(); ++property) {
+            const Property& kind = model.properties[property];
+            double value = 0;
+            double heaviest = -1;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double w = position->weights[k];
+                const double at_vertex =
+                    to_scale(kind, model.vertex_values.values[property][mesh.cells[position->cell][k]]);
+                if (kind.kind == Kind::categorical) {
+                    value = w > heaviest ? at_vertex : value;
+                    heaviest = std::max(heaviest, w);
+                } else if (w != 0) {
+                    value += w * at_vertex;
+                }
+            }
+            const double measured = to_scale(kind, model.samples.values[property][i]);
+            const double error = kind.kind == Kind::categorical ? (measured == value ? 0.0 : 1.0) : std::abs(value - measured);
+            if (!std::isnan(measured) && !std::isnan(value)) {
+                squares[property] += error * error;
+                result[property].max = std::max(result[property].max, error);
+                ++result[property].count;
+            }
+        }
+    }
+    for (std::size_t property = 0; property < result.size(); ++property) {
+        if (result[property].count > 0) {
+            result[property].rms = std::sqrt(squares[property] / static_cast<double>(result[property].count));
+        }
+    }
+    return result;
+}
+
+}  // namespace terratet

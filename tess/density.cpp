@@ -1,2 +1,140 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/density.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "tess/delaunay.hpp"
+#include "tess/point_grid.hpp"
+
+namespace terratet {
+
+namespace {
+
+using Edge = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared length, ends: shortest first, ties by index
+
+/// Greedy thinning in the order given.
+std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vector<std::uint32_t>& order,
+                                         PointGrid& kept, double l_min) {
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t i : order) {
+        if (!kept.any_within(samples.positions[i], l_min)) {
+            kept.insert(samples.positions[i]);
+            result.push_back(i);
+        }
+    }
+    return result;
+}
+
+/// The paper's dynamic deletion on the Delaunay tessellation of the samples alone. The shortest edge goes first; of its
+/// ends the one with the smaller nearest-neighbour distance, which in a Delaunay tessellation is its second shortest edge:
+/// the shortest is common to both.
+class DynamicDeletion {
+  public:
+    DynamicDeletion(const Samples& samples, const std::vector<std::uint32_t>& candidates, double l_min)
+        : samples_(samples), limit_(l_min * l_min), handles_(samples.size()) {
+        std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
+        for (const std::uint32_t i : candidates) {
+            points.emplace_back(delaunay::to_cgal(samples.positions[i]), i);
+        }
+        triangulation_.insert(points.begin(), points.end());
+        for (const auto vertex : triangulation_.finite_vertex_handles()) {
+            handles_[vertex->info()] = vertex;
+        }
+        for (const std::uint32_t i : candidates) {
+            queue_edges_of(i);
+        }
+    }
+
+    std::vector<std::uint32_t> run() {
+        while (!short_edges_.empty()) {
+            const auto [length, a, b] = *short_edges_.begin();
+            remove(distance_to_second(a, b) < distance_to_second(b, a) ? a : b);
+        }
+        std::vector<std::uint32_t> kept;
+        for (std::uint32_t i = 0; i < handles_.size(); ++i) {
+            if (handles_[i] != delaunay::VertexHandle()) {
+                kept.push_back(i);
+            }
+        }
+        return kept;
+    }
+
+  private:
+    std::vector<std::uint32_t> neighbours(std::uint32_t i) const {
+        std::vector<delaunay::VertexHandle> adjacent;
+        if (triangulation_.dimension() >= 1) {
+            triangulation_.finite_adjacent_vertices(handles_[i], std::back_inserter(adjacent));
+        }
+        std::vector<std::uint32_t> result;
+        for (const auto vertex : adjacent) {
+            result.push_back(vertex->info());
+        }
+        return result;
+    }
+
+    Edge edge(std::uint32_t a, std::uint32_t b) const {
+        return {squared_distance(samples_.positions[a], samples_.positions[b]), std::min(a, b), std::max(a, b)};
+    }
+
+    void queue_edges_of(std::uint32_t i) {
+        for (const std::uint32_t j : neighbours(i)) {
+            if (const Edge e = edge(i, j); std::get<0>(e) < limit_) {
+                short_edges_.insert(e);
+            }
+        }
+    }
+
+    double distance_to_second(std::uint32_t i, std::uint32_t except) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t j : neighbours(i)) {
+            if (j != except) {
+                nearest = std::min(nearest, std::get<0>(edge(i, j)));
+            }
+        }
+        return nearest;
+    }
+
+    void remove(std::uint32_t i) {
+        const auto around = neighbours(i);
+        for (const std::uint32_t j : around) {
+            short_edges_.erase(edge(i, j));
+        }
+        triangulation_.remove(handles_[i]);
+        handles_[i] = {};
+        for (const std::uint32_t j : around) {
+            queue_edges_of(j);
+        }
+    }
+
+    const Samples& samples_;
+    double limit_;
+    delaunay::Triangulation triangulation_;
+    std::vector<delaunay::VertexHandle> handles_;  ///< by sample; none once removed
+    std::set<Edge> short_edges_;
+};
+
+}  // namespace
+
+DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults) {
+    DensityResult result;
+    std::vector<std::uint32_t> candidates;
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        (faults.protecting_fault(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
+    }
+    PointGrid kept(l_min);
+    if (mode == DensityMode::paper) {
+        result.kept = DynamicDeletion(samples, candidates, l_min).run();
+        for (const std::uint32_t i : result.kept) {
+            kept.insert(samples.positions[i]);
+        }
+    }
+    const auto added = keep_in_order(samples, candidates, kept, l_min);
+    result.kept.insert(result.kept.end(), added.begin(), added.end());
+    std::ranges::sort(result.kept);
+    result.deleted = candidates.size() - result.kept.size();
+    return result;
+}
+
+}  // namespace terratet

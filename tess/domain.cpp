@@ -1,2 +1,55 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tess/point_grid.hpp"
+
+namespace terratet {
+
+namespace {
+
+/// How many equal steps divide a side: fine enough for l_max, never finer than l_min.
+int steps(double side, double l_min, double l_max) {
+    const double wanted = std::ceil(side / (l_max / std::numbers::sqrt2));
+    const double allowed = std::floor(side / l_min);
+    return static_cast<int>(std::max(1.0, std::min(wanted, allowed)));
+}
+
+}  // namespace
+
+std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
+                            const Frame& frame) {
+    PointGrid near(l_min);
+    for (const Vec3& p : obstacles) {
+        near.insert(p);
+    }
+    std::array<int, 3> n{};
+    for (int axis = 0; axis < 3; ++axis) {
+        n[static_cast<std::size_t>(axis)] = steps(hull.size()[axis], l_min, l_max);
+    }
+    const auto coordinate = [&](int axis, int i) {
+        const int last = n[static_cast<std::size_t>(axis)];
+        return i == last ? hull.hi[axis] : hull.lo[axis] + hull.size()[axis] * i / last;
+    };
+    std::vector<Vec3> points;
+    for (int i = 0; i <= n[0]; ++i) {
+        for (int j = 0; j <= n[1]; ++j) {
+            const bool on_side = i == 0 || i == n[0] || j == 0 || j == n[1];
+            for (int k = 0; k <= n[2]; k += on_side ? 1 : n[2]) {
+                const bool corner = (i == 0 || i == n[0]) && (j == 0 || j == n[1]) && (k == 0 || k == n[2]);
+                const Vec3 p = frame.snapped({coordinate(0, i), coordinate(1, j), coordinate(2, k)});
+                if (corner || !near.any_within(p, l_min)) {
+                    points.push_back(p);
+                }
+            }
+        }
+    }
+    std::ranges::sort(points);
+    return points;
+}
+
+}  // namespace terratet

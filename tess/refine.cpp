@@ -1,2 +1,340 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tess/cell_queue.hpp"
+#include "tess/cells.hpp"
+#include "tess/delaunay.hpp"
+#include "tess/insertion_rule.hpp"
+
+namespace terratet {
+
+namespace {
+
+using delaunay::Cell;
+using delaunay::Facet;
+
+/// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do well, and
+/// trying seven more points for each would more than double the time.
+constexpr double poor_star_deg = 12;
+constexpr int candidate_count = 7;
+constexpr double candidate_radius = 0.3;  ///< of the circumradius
+
+/// Deterministic points in a ball, seeded by a cell's vertices: the same whatever happened before (R6).
+class BallPoints {
+  public:
+    explicit BallPoints(const std::array<std::uint32_t, 4>& vertices) {
+        for (const std::uint32_t v : vertices) {
+            state_ = mix(state_ ^ v);
+        }
+    }
+    Vec3 next() {
+        for (;;) {
+            const Vec3 p{uniform(), uniform(), uniform()};
+            if (squared_length(p) <= 1) {
+                return p;
+            }
+        }
+    }
+
+  private:
+    static std::uint64_t mix(std::uint64_t x) {  // the finaliser of SplitMix64 (Steele, Lea, Flood 2014)
+        x += 0x9e3779b97f4a7c15U;
+        x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+        x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+        return x ^ (x >> 31U);
+    }
+    double uniform() {
+        state_ = mix(state_);
+        return static_cast<double>(state_ >> 11U) * 0x1p-52 - 1;
+    }
+    std::uint64_t state_ = 0;
+};
+
+/// The conflict zone of a point: what its insertion would replace.
+struct Zone {
+    Vec3 point;
+    std::vector<Facet> boundary;
+    std::vector<Cell> cells;
+
+    void clear() {
+        boundary.clear();
+        cells.clear();
+    }
+};
+
+class Refiner {
+  public:
+    Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
+            const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+            const ValueSource& source, const RefineOptions& options)
+        : kernel_(tessellation.kernel()),
+          values_(values),
+          rule_(criteria, domain, frame, faults, properties, values),
+          frame_(frame),
+          source_(source),
+          options_(options),
+          values_at_once_(criteria.has_variation()),
+          property_count_(properties.size()),
+          first_new_(kernel_.vertices.size()) {
+        report_.bound = packing_bound(domain.hull, criteria.l_min);
+    }
+
+    RefineReport run() {
+        queue_all();
+        while (const auto cell = queue_.pop()) {
+            treat(*cell);
+        }
+        if (!values_at_once_) {
+            append_values(first_new_);
+        }
+        return report_;
+    }
+
+  private:
+    /// Vertices ascending, points in step.
+    static JudgedCell judged(Cell cell) {
+        std::array<std::pair<std::uint32_t, int>, 4> order{};
+        for (int k = 0; k < 4; ++k) {
+            order[static_cast<std::size_t>(k)] = {cell->vertex(k)->info(), k};
+        }
+        std::ranges::sort(order);
+        JudgedCell result{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            result.vertices[k] = order[k].first;
+            result.points[k] = delaunay::from_cgal(cell->vertex(order[k].second)->point());
+        }
+        return result;
+    }
+
+    void queue_all() {
+        auto& triangulation = kernel_.triangulation;
+        if (triangulation.dimension() < 3) {
+            return;
+        }
+        std::vector<Cell> cells;
+        for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
+            cell->info() = delaunay::none;
+            if (!triangulation.is_infinite(cell)) {
+                cells.push_back(cell);
+            }
+        }
+        queue_bad(cells);
+    }
+
+    /// Queues the bad ones among `cells`, in an order that depends on their vertices alone.
+    void queue_bad(const std::vector<Cell>& cells) {
+        bad_.clear();
+        for (const Cell cell : cells) {
+            const JudgedCell judged_cell = judged(cell);
+            if (gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
+                continue;
+            }
+            if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
+                bad_.push_back({judged_cell.vertices, violation, cell});
+            }
+        }
+        std::ranges::sort(bad_, std::greater(), &BadCell::vertices);
+        for (const BadCell& bad : bad_) {
+            queue_.push(bad.cell, bad.violation);
+        }
+    }
+
+    void treat(Cell cell) {
+        const JudgedCell judged_cell = judged(cell);
+        const Proposal proposal = rule_.propose(judged_cell);
+        if (proposal.reason != Reason::none) {
+            return;
+        }
+        Cell start = cell;
+        if (proposal.projected) {
+            delaunay::Triangulation::Locate_type where{};
+            int i = 0;
+            int j = 0;
+            start = kernel_.triangulation.locate(delaunay::to_cgal(proposal.point), where, i, j, cell);
+            if (where == delaunay::Triangulation::VERTEX || kernel_.triangulation.is_infinite(start)) {
+                return;
+            }
+        }
+        if (!find_zone(proposal.point, start, zone_)) {
+            return;
+        }
+        if (options_.candidates && !proposal.projected) {
+            improve(judged_cell, proposal, cell);
+        }
+        insert(zone_);
+    }
+
+    /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
+    bool find_zone(const Vec3& point, Cell start, Zone& zone) {
+        zone.clear();
+        zone.point = point;
+        kernel_.triangulation.find_conflicts(delaunay::to_cgal(point), start, std::back_inserter(zone.boundary),
+                                             std::back_inserter(zone.cells));
+        const double limit = rule_.l_min() * rule_.l_min();
+        for (const Facet& facet : zone.boundary) {
+            for (int k = 1; k < 4; ++k) {
+                const auto vertex = facet.first->vertex((facet.second + k) & 3);
+                if (!kernel_.triangulation.is_infinite(vertex) &&
+                    squared_distance(delaunay::from_cgal(vertex->point()), point) < limit) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// Rule 4: where the circumcentre would make a poor star, the best of it and seven points around it.
+    void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
+        double best = star_quality(zone_);
+        if (best >= poor_star_deg) {
+            return;
+        }
+        BallPoints ball(cell.vertices);
+        for (int i = 0; i < candidate_count; ++i) {
+            const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
+            if (!rule_.allows(point) || !find_zone(point, start, candidate_)) {
+                continue;
+            }
+            if (const double quality = star_quality(candidate_); quality > best) {
+                best = quality;
+                std::swap(zone_, candidate_);
+            }
+        }
+    }
+
+    /// Smallest dihedral angle of the cells an insertion would make, in degrees.
+    double star_quality(const Zone& zone) const {
+        double smallest = 180;
+        for (const Facet& facet : zone.boundary) {
+            CellPoints points{zone.point, {}, {}, {}};
+            bool finite = true;
+            for (int k = 1; k < 4; ++k) {
+                const auto vertex = facet.first->vertex((facet.second + k) & 3);
+                finite = finite && !kernel_.triangulation.is_infinite(vertex);
+                points[static_cast<std::size_t>(k)] = delaunay::from_cgal(vertex->point());
+            }
+            if (finite) {
+                smallest = std::min(smallest, smallest_dihedral_deg(points));
+            }
+        }
+        return smallest;
+    }
+
+    void insert(const Zone& zone) {
+        if (kernel_.vertices.size() >= options_.max_vertices) {
+            throw Error("refinement reached --max-vertices " + std::to_string(options_.max_vertices) +
+                        "; the criteria allow up to " + std::to_string(static_cast<std::uint64_t>(report_.bound)) +
+                        " inserted vertices: raise the limit, or --lmin");
+        }
+        for (const Cell cell : zone.cells) {
+            queue_.forget(cell);
+        }
+        auto& triangulation = kernel_.triangulation;
+        const auto vertex = triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(),
+                                                         zone.cells.end(), zone.boundary.front().first,
+                                                         zone.boundary.front().second);
+        vertex->info() = static_cast<std::uint32_t>(kernel_.vertices.size());
+        kernel_.vertices.push_back({kernel_.next_id++, zone.point, Role::inserted, -1, 0});
+        ++report_.inserted;
+        if (values_at_once_) {
+            append_values(kernel_.vertices.size() - 1);
+        }
+        star_.clear();
+        triangulation.incident_cells(vertex, std::back_inserter(star_));
+        for (const Cell cell : star_) {
+            cell->info() = delaunay::none;
+        }
+        std::erase_if(star_, [&](Cell cell) { return triangulation.is_infinite(cell); });
+        queue_bad(star_);
+        if (report_.inserted % 4096 == 0) {
+            tell();
+        }
+    }
+
+    void append_values(std::size_t first) {
+        std::vector<ValueQuery> queries;
+        for (std::size_t i = first; i < kernel_.vertices.size(); ++i) {
+            queries.push_back({kernel_.vertices[i].position, -1, 0});
+        }
+        const ValueBatch batch = source_(queries);
+        for (std::size_t p = 0; p < property_count_; ++p) {
+            values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
+        }
+        values_.extrapolation.insert(values_.extrapolation.end(), batch.extrapolation.begin(),
+                                     batch.extrapolation.end());
+    }
+
+    /// Nobody knows how much is left; what is done against what waits is a fair guess that never runs backwards.
+    void tell() {
+        const auto done = static_cast<double>(report_.inserted);
+        told_ = std::max(told_, done / (done + static_cast<double>(queue_.waiting())));
+        report_progress(options_.progress, "refine", told_);
+    }
+
+    struct BadCell {
+        std::array<std::uint32_t, 4> vertices;
+        double violation;
+        Cell cell;
+    };
+
+    Tessellation::Kernel& kernel_;
+    VertexValues& values_;
+    InsertionRule rule_;
+    const Frame& frame_;
+    const ValueSource& source_;
+    const RefineOptions& options_;
+    bool values_at_once_;
+    std::size_t property_count_;
+    std::size_t first_new_;
+    CellQueue queue_;
+    RefineReport report_;
+    double told_ = 0;
+    Zone zone_;
+    Zone candidate_;
+    std::vector<BadCell> bad_;
+    std::vector<Cell> star_;
+};
+
+}  // namespace
+
+std::string to_string(Reason reason) {
+    switch (reason) {
+        case Reason::none:
+            return "none";
+        case Reason::smooth:
+            return "smooth";
+        case Reason::too_close:
+            return "too_close";
+        case Reason::near_face:
+            return "near_face";
+        case Reason::near_fault:
+            return "near_fault";
+        case Reason::no_center:
+            return "no_center";
+        case Reason::fault_gap:
+            return "fault_gap";
+    }
+    return "unknown";
+}
+
+double packing_bound(const Box3& hull, double l_min) {
+    // |Ω ⊕ B(l/2)| for a box (Steiner's formula), against the volume a point of a densest packing takes: l³/√2.
+    const Vec3 a = hull.size();
+    const double r = l_min / 2;
+    const double swollen = a.x * a.y * a.z + 2 * r * (a.x * a.y + a.y * a.z + a.z * a.x) +
+                           std::numbers::pi * r * r * (a.x + a.y + a.z) + 4.0 / 3 * std::numbers::pi * r * r * r;
+    return std::ceil(std::numbers::sqrt2 * swollen / (l_min * l_min * l_min));
+}
+
+RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
+                    const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+                    const ValueSource& source, const RefineOptions& options) {
+    return Refiner(tessellation, values, domain, frame, faults, criteria, properties, source, options).run();
+}
+
+}  // namespace terratet

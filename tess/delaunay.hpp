@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// The kernel of a tessellation: CGAL's dynamic Delaunay triangulation with our vertex table. Private to this floor; the
+/// only header that names CGAL, included by the few files that insert, remove or walk.
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include "tess/tessellation.hpp"
+
+namespace terratet::delaunay {
+
+inline constexpr std::uint32_t none = 0xffffffffU;
+
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Epick>;  // index in the vertex table
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Epick,  // scratch: whoever works on the cells
+                                                           CGAL::Delaunay_triangulation_cell_base_3<Epick>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Epick, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using Point = Epick::Point_3;
+using Cell = Triangulation::Cell_handle;
+using Facet = Triangulation::Facet;
+using VertexHandle = Triangulation::Vertex_handle;
+
+inline Point to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
+inline Vec3 from_cgal(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+}  // namespace terratet::delaunay
+
+namespace terratet {
+
+struct Tessellation::Kernel {
+    delaunay::Triangulation triangulation;
+    std::vector<Vertex> vertices;  ///< ascending id; a CGAL vertex's info is its index here
+    std::uint64_t next_id = 0;
+};
+
+}  // namespace terratet

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/insertion_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace terratet {
+
+namespace {
+
+constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return length(cross(b - a, c - a)) / 2; }
+
+/// β = R/r with r = 3V/A.
+double aspect(const CellPoints& p, double circumradius, double volume) {
+    const double area = triangle_area(p[1], p[2], p[3]) + triangle_area(p[0], p[2], p[3]) +
+                        triangle_area(p[0], p[1], p[3]) + triangle_area(p[0], p[1], p[2]);
+    return circumradius * area / (3 * volume);
+}
+
+}  // namespace
+
+InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame,
+                             const FaultProximity& faults, std::span<const Property> properties,
+                             const VertexValues& values)
+    : criteria_(criteria),
+      domain_(domain),
+      frame_(frame),
+      faults_(faults),
+      properties_(properties),
+      values_(values),
+      has_variation_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_max > 0; })),
+      has_smooth_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_min > 0; })) {}
+
+double InsertionRule::shape_violation(const JudgedCell& cell) const {
+    const CellPoints& p = cell.points;
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0;
+    for (const auto& [i, j] : cell_edges) {
+        const double d = squared_distance(p[i], p[j]);
+        shortest = std::min(shortest, d);
+        longest = std::max(longest, d);
+    }
+    double worst = std::sqrt(longest) / criteria_.l_max;
+    const Circumsphere sphere = circumsphere(p);
+    if (criteria_.radius_edge > 0) {
+        worst = std::max(worst, std::sqrt(sphere.squared_radius / shortest) / criteria_.radius_edge);
+    }
+    const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
+    if (criteria_.v_max > 0) {
+        worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
+    }
+    if (criteria_.aspect > 0 && worst <= 1) {
+        worst = std::max(worst, aspect(p, std::sqrt(sphere.squared_radius), volume) / criteria_.aspect);
+    }
+    return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
+}
+
+double InsertionRule::variation_violation(const JudgedCell& cell) const {
+    double worst = 0;
+    for (std::size_t property = 0; property < criteria_.variation.size(); ++property) {
+        const double limit = criteria_.variation[property].df_max;
+        if (limit <= 0) {
+            continue;
+        }
+        const auto& column = values_.values[property];
+        for (const auto& [i, j] : cell_edges) {
+            // An edge across a fault is exempt: a jump there is what the fault is for.
+            const double df = scaled_difference(properties_[property], column[cell.vertices[i]], column[cell.vertices[j]]);
+            if (df > limit * worst && !faults_.crosses_any(cell.points[i], cell.points[j])) {
+                worst = df / limit;
+            }
+        }
+    }
+    return worst;
+}
+
+bool InsertionRule::smooth(const JudgedCell& cell) const {
+    if (!has_smooth_) {
+        return false;
+    }
+    for (std::size_t property = 0; property < criteria_.variation.size(); ++property) {
+        const double limit = criteria_.variation[property].df_min;
+        const auto& column = values_.values[property];
+        for (const auto& [i, j] : cell_edges) {
+            if (limit > 0 && !(scaled_difference(properties_[property], column[cell.vertices[i]],
+                                                 column[cell.vertices[j]]) < limit)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+double InsertionRule::violation(const JudgedCell& cell) const {
+    const double shape = shape_violation(cell);
+    return has_variation_ ? std::max(shape, variation_violation(cell)) : shape;
+}
+
+double InsertionRule::violation_in_force(const JudgedCell& cell) const {
+    if (!smooth(cell)) {
+        return violation(cell);
+    }
+    double worst = has_variation_ ? variation_violation(cell) : 0;
+    if (criteria_.v_max > 0) {
+        const CellPoints& p = cell.points;
+        const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
+        worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
+    }
+    return worst;
+}
+
+bool InsertionRule::near_face(const Vec3& point) const {
+    const double margin = criteria_.l_min / 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (point[axis] < domain_.hull.lo[axis] + margin || point[axis] > domain_.hull.hi[axis] - margin) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Proposal InsertionRule::propose(const JudgedCell& cell) const {
+    const Circumsphere sphere = circumsphere(cell.points);
+    Proposal proposal;
+    proposal.radius = std::sqrt(sphere.squared_radius);
+    if (!is_finite(sphere.center) || !std::isfinite(proposal.radius)) {
+        proposal.reason = Reason::no_center;
+        return proposal;
+    }
+    if (proposal.radius < criteria_.l_min) {  // the nearest vertex is at exactly R: the guard costs nothing
+        proposal.reason = Reason::too_close;
+        return proposal;
+    }
+    proposal.point = sphere.center;
+    const double margin = criteria_.l_min / 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        double& x = proposal.point[axis];
+        if (x < domain_.hull.lo[axis] + margin) {
+            x = domain_.hull.lo[axis];
+            proposal.projected = true;
+        } else if (x > domain_.hull.hi[axis] - margin) {
+            x = domain_.hull.hi[axis];
+            proposal.projected = true;
+        }
+    }
+    proposal.point = frame_.snapped(proposal.point);
+    if (!faults_.empty() && faults_.protecting_fault(proposal.point) >= 0) {
+        proposal.reason = Reason::near_fault;
+    }
+    return proposal;
+}
+
+bool InsertionRule::allows(const Vec3& point) const {
+    return is_finite(point) && !near_face(point) && (faults_.empty() || faults_.protecting_fault(point) < 0);
+}
+
+}  // namespace terratet

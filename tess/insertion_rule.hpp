@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Rules 1 to 3 of refinement (DESIGN §4.3) as pure functions of one cell: is it bad, and where would its new vertex go?
+/// The refiner acts on them and the cell table explains with them, so a reason code is the very reason the refiner had.
+/// Private to this floor.
+
+#include <array>
+#include <span>
+
+#include "tess/criteria.hpp"
+#include "tess/domain.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/frame.hpp"
+#include "tess/property.hpp"
+#include "tess/quality.hpp"
+#include "tess/refine.hpp"
+
+namespace terratet {
+
+/// A cell as the rules see it: its vertices ascending by index, so that results do not depend on how it is stored.
+struct JudgedCell {
+    std::array<std::uint32_t, 4> vertices;
+    CellPoints points;
+};
+
+/// Where a bad cell's new vertex would go. Distances to other vertices are still to be tested when `projected`.
+struct Proposal {
+    Reason reason = Reason::none;  ///< none: acceptable so far
+    Vec3 point;                    ///< snapped
+    bool projected = false;        ///< moved onto the hull box
+    double radius = 0;             ///< of the circumsphere
+};
+
+class InsertionRule {
+  public:
+    /// All references must outlive the rule.
+    InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame, const FaultProximity& faults,
+                  std::span<const Property> properties, const VertexValues& values);
+
+    /// Largest ratio of a measure to its limit over the insertion criteria in force; above 1 the cell is bad. Exact only
+    /// above 1. Exemption as smooth is not considered.
+    [[nodiscard]] double violation(const JudgedCell& cell) const;
+
+    /// Below df_min along all edges: exempt from shape and l_max.
+    [[nodiscard]] bool smooth(const JudgedCell& cell) const;
+
+    /// What is left of the violation when a smooth cell's shape and l_max are forgiven.
+    [[nodiscard]] double violation_in_force(const JudgedCell& cell) const;
+
+    /// Rules 2 and 3.
+    [[nodiscard]] Proposal propose(const JudgedCell& cell) const;
+
+    /// Rules 2 and 3 for a point near a circumcentre (rule 4): in the box but not on it, outside the faults' zones.
+    [[nodiscard]] bool allows(const Vec3& point) const;
+
+    [[nodiscard]] double l_min() const { return criteria_.l_min; }
+
+  private:
+    [[nodiscard]] double shape_violation(const JudgedCell& cell) const;
+    [[nodiscard]] double variation_violation(const JudgedCell& cell) const;
+    [[nodiscard]] bool near_face(const Vec3& point) const;
+
+    const Criteria& criteria_;
+    const Domain& domain_;
+    const Frame& frame_;
+    const FaultProximity& faults_;
+    std::span<const Property> properties_;
+    const VertexValues& values_;
+    bool has_variation_;
+    bool has_smooth_;
+};
+
+}  // namespace terratet

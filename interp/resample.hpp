@@ -33,9 +33,9 @@ class TileSink {
 /// The linear fields to sample: cells with a value at each of their vertices.
 struct LinearField {
     const TetMesh* mesh = nullptr;
-    std::span<const double> vertex_values;   ///< in the property's scale; NaN: the cell is left out
-    std::span<const std::uint8_t> use_cell;  ///< one per cell; empty: all
-    std::span<const Vertex> vertices;        ///< when given, a gap cell takes its values from the voxel's own side
+    std::span<const double> vertex_values{};   ///< in the property's scale; NaN: the cell is left out
+    std::span<const std::uint8_t> use_cell{};  ///< one per cell; empty: all
+    std::span<const Vertex> vertices{};        ///< when given, a gap cell takes its values from the voxel's own side
     bool log10 = false;                      ///< write 10^value
     bool categorical = false;                ///< write the class of the largest barycentric weight
 };

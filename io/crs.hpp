@@ -3,6 +3,9 @@
 #pragma once
 /// \file
 /// Coordinate reference systems, by PROJ. Axis order is always x = easting or longitude, y = northing or latitude.
+///
+/// Heights: a compound or three-dimensional CRS says their unit itself. With a plain projected CRS they are in its
+/// unit (US survey feet for a state plane in feet), with a plain geographic one in metres.
 
 #include <memory>
 #include <string>
@@ -13,27 +16,31 @@
 namespace terratet {
 
 struct Crs {
-    std::string wkt;               ///< WKT2:2019; empty: none given
-    std::string name;              ///< "EPSG:3067 ETRS89 / TM35FIN(E,N)" or the name alone
+    std::string wkt;   ///< WKT2:2019; empty: none given
+    std::string name;  ///< "EPSG:3067 ETRS89 / TM35FIN(E,N)" or the name alone
     bool geographic = false;
-    std::string unit = "metre";    ///< of the horizontal axes: "metre", "US survey foot", "degree", …
-    double metres_per_unit = 1.0;  ///< of a projected CRS
+    std::string unit = "metre";      ///< of the horizontal axes: "metre", "US survey foot", "degree", …
+    double metres_per_unit = 1.0;    ///< of a projected CRS
+    double metres_per_height = 1.0;  ///< unit of heights
 
     [[nodiscard]] bool empty() const { return wkt.empty(); }
+    friend bool operator==(const Crs&, const Crs&) = default;
 };
 
 /// From anything PROJ understands: EPSG:3067, a WKT, a PROJJSON, a name. "local" (any case) gives an engineering frame
 /// in metres, "local:ft" in feet. Throws UsageError saying what was not understood.
 Crs parse_crs(const std::string& text);
 
-/// From a WKT as a file carries it; empty Crs for an empty or unusable one.
+/// From a WKT as a file carries it; empty Crs for an empty or unusable one, and for the "Undefined …" that GeoPackages
+/// store for unknown.
 Crs crs_from_wkt(const std::string& wkt);
 
-/// The UTM zone (WGS 84, EPSG:326zz or 327zz) of a place, Norway's and Svalbard's exceptions included.
+/// The UTM zone (WGS 84, EPSG:326zz or 327zz) of a place, Norway's and Svalbard's exceptions included. Throws
+/// InputError beyond 84° N and 80° S, where there is none.
 Crs utm_zone(double longitude_deg, double latitude_deg);
 
-/// Transforms coordinates from one CRS to another, heights as PROJ does (unchanged between 2D CRSs, but for the unit of
-/// height, which is `metres_per_unit` of each side's CRS when both are projected).
+/// Transforms coordinates from one CRS to another. Heights change as PROJ does between CRSs that both have them, and
+/// else only in unit.
 class CrsTransform {
   public:
     /// Throws InputError when PROJ knows no way.
@@ -42,12 +49,22 @@ class CrsTransform {
     CrsTransform(CrsTransform&&) noexcept;
     CrsTransform& operator=(CrsTransform&&) noexcept;
 
-    /// In place; a point that cannot be transformed becomes NaN on all axes. Identity when both CRSs are equal.
+    /// In place; a point that cannot be transformed becomes NaN on all axes. Identity when both CRSs are equal. A NaN
+    /// height stays one and the plane coordinates are transformed. Not for two threads at once.
     void apply(std::vector<Vec3>& points) const;
     [[nodiscard]] bool identity() const;
 
-    /// Grid convergence at a place of the target in degrees, clockwise from grid north to true north: what to subtract…
-    /// see --azimuth. 0 for a local frame.
+    /// What to say of the accuracy: empty, or that points were transformed with nothing better than a "ballpark" (a
+    /// datum grid is missing on this machine; errors of metres to hundreds of metres). Meaningful after apply().
+    [[nodiscard]] std::string remark() const;
+
+    /// Direction of the source's north (its +y) at a place, degrees clockwise from the target's grid north: what to add
+    /// to an azimuth counted from the one to count it from the other.
+    /// \pre `source_point` can be transformed (else NaN).
+    [[nodiscard]] double north_deg(const Vec3& source_point) const;
+
+    /// Direction of true north at a place of the target, degrees clockwise from its grid north: what to add to a true
+    /// azimuth to get a grid azimuth (the negative of what surveyors call grid convergence). 0 for a local frame.
     [[nodiscard]] double convergence_deg(const Vec3& target_point) const;
 
   private:

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// How an input is named: `FILE[,layer=L][,srs=CRS][,where=…]`. FILE is anything GDAL opens, /vsizip/, /vsicurl/, /vsistdin/ and
-/// PG: connection strings included.
+/// How an input is named: `FILE[,layer=L][,srs=CRS][,where=…][,sql=…][,oo=KEY=VALUE]…`. FILE is anything GDAL opens,
+/// /vsizip/, /vsicurl/, /vsistdin/ and PG: connection strings included.
 
 #include <string>
 #include <vector>
@@ -12,20 +12,27 @@ namespace terratet {
 
 struct Source {
     std::string path;
-    std::string layer;  ///< empty: the first
-    std::string srs;    ///< empty: what the file says, then the general -s_srs
-    std::string where;  ///< attribute filter in OGR SQL
-    std::string sql;    ///< a statement instead of a layer
+    std::string layer;                      ///< empty: the first
+    std::string srs;                        ///< empty: what the file says, then the general -s_srs
+    std::string where;                      ///< attribute filter in OGR SQL
+    std::string sql;                        ///< a statement instead of a layer
     std::vector<std::string> open_options;  ///< KEY=VALUE, handed to the driver
 
-    /// For messages: the path and the layer.
+    /// For messages: the path and the layer. A password in a connection string is masked.
     [[nodiscard]] std::string describe() const;
+
+    friend bool operator==(const Source&, const Source&) = default;
 };
 
-/// Splits at commas that precede a known key, so that file names may hold commas. Throws UsageError on an unknown key.
+/// Splits at commas that precede a known key (layer, srs, where, sql, oo), so that file names, statements and CRS may
+/// hold commas. Throws UsageError on an unknown key after a file name, a key given twice, or without a file name.
 Source parse_source(const std::string& text);
 
-/// A length with an optional unit, `20`, `20m`, `65ft`, in units of `metres_per_unit`. Throws UsageError.
+/// A length with an optional unit (mm, cm, m, km, ft, usft, in, yd, mi), `20`, `20m`, `65ft`, in units of
+/// `metres_per_unit`. Throws UsageError.
 double parse_length(const std::string& text, double metres_per_unit);
+
+/// Metres in a unit as parse_length knows it. Throws UsageError naming those there are.
+double metres_in_unit(const std::string& unit);
 
 }  // namespace terratet

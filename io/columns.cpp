@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "io/read_table.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+
+namespace {
+
+constexpr std::array<const char*, 11> meaning_names{"id",    "x",       "y",   "z",      "from", "to",
+                                                    "depth", "azimuth", "dip", "length", "name"};
+
+constexpr std::array<std::string_view, 18> unit_words{"m",     "ft",     "feet", "foot", "metre",  "metres",
+                                                      "meter", "meters", "km",   "deg",  "degree", "degrees",
+                                                      "dd",    "masl",   "mbgl", "msl",  "usft",   "amsl"};
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return result;
+}
+
+/// Without a trailing bracket: "Easting [m]", "Cu (%)".
+std::string_view without_bracket(std::string_view header) {
+    const std::size_t open = header.find_first_of("([{");
+    return open == std::string_view::npos || open == 0 ? header : header.substr(0, open);
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const unsigned char c : text) {
+        if (std::isalnum(c) != 0 || c >= 0x80) {
+            words.back() += static_cast<char>(std::tolower(c));
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    if (words.back().empty()) {
+        words.pop_back();
+    }
+    return words;
+}
+
+void require_known_meanings(const ColumnNames& overrides) {
+    for (const auto& [meaning, column] : overrides) {
+        if (std::ranges::find(meaning_names, meaning) == meaning_names.end()) {
+            std::string known;
+            for (const char* name : meaning_names) {
+                known += (known.empty() ? "" : ", ") + std::string(name);
+            }
+            throw UsageError("--columns " + meaning + "=" + column + ": no such meaning; there are " + known);
+        }
+    }
+}
+
+int column_named(const Table& table, const std::string& name) {
+    const auto found = std::ranges::find(table.columns, lower(name), [](const auto& column) { return lower(column); });
+    return found == table.columns.end() ? -1 : static_cast<int>(found - table.columns.begin());
+}
+
+int column_of_alias(const Table& table, Meaning meaning) {
+    std::vector<std::string> headers;
+    for (const std::string& column : table.columns) {
+        headers.push_back(normal_header(column));
+    }
+    for (const std::string& alias : aliases(meaning)) {
+        const auto found = std::ranges::find(headers, alias);
+        if (found != headers.end()) {
+            return static_cast<int>(found - headers.begin());
+        }
+    }
+    return -1;
+}
+
+std::string list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+}  // namespace
+
+const char* to_string(Meaning meaning) {
+    return meaning_names[static_cast<std::size_t>(meaning)];
+}
+
+const std::vector<std::string>& aliases(Meaning meaning) {
+    static const std::array<std::vector<std::string>, 11> all{{
+        // id
+        {"bhid",       "holeid",    "dhid",     "ddhid",        "drillholeid",  "boreholeid", "boreid",   "wellid",
+         "siteid",     "collarid",  "locaid",   "locationid",   "pointid",      "hole",       "holename", "holeno",
+         "holenumber", "drillhole", "borehole", "boreholename", "bore",         "boreno",     "borename", "well",
+         "wellname",   "uwi",       "api",      "idcode",       "originalname", "id",         "name"},
+        // x
+        {"xcollar", "collarx",  "x",          "xcoord",     "xcoordinate", "coordx",    "east",
+         "easting", "eastings", "eastcollar", "collareast", "utme",        "utmx",      "utmeast",
+         "xutm",    "gridx",    "locationx",  "lon",        "long",        "longitude", "xlong"},
+        // y
+        {"ycollar",  "collary",   "y",     "ycoord",      "ycoordinate", "coordy",   "north",
+         "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",     "utmy",
+         "utmnorth", "yutm",      "gridy", "locationy",   "lat",         "latitude", "ylat"},
+        // z
+        {"zcollar",  "collarz",   "z",          "zcoord",      "zcoordinate",     "coordz",
+         "elev",     "elevation", "elevationz", "collarelev",  "collarelevation", "rl",
+         "collarrl", "altitude",  "alt",        "groundlevel", "groundelevation", "locagl",
+         "height",   "masl",      "amsl"},
+        // from
+        {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "sampfrom", "samplefrom",
+         "intervalfrom", "top", "depthtop", "topdepth", "mdtop", "geoltop"},
+        // to
+        {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "sampto", "sampleto", "intervalto", "bottom",
+         "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
+        // depth
+        {"at", "depth", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "dept", "distance", "surveyat"},
+        // azimuth
+        {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
+         "azimuthgrid", "gridazimuth", "azimuthtrue"},
+        // dip
+        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip"},
+        // length
+        {"length", "len", "eoh", "eodh", "td", "totaldepth", "maxdepth", "depthmax", "enddepth", "finaldepth",
+         "holelength", "holedepth", "endofhole"},
+        // name
+        {"name", "fault", "faultname", "faultid", "surface", "surfacename", "horizon", "structure", "object", "group",
+         "id"},
+    }};
+    return all[static_cast<std::size_t>(meaning)];
+}
+
+std::string normal_header(const std::string& header) {
+    std::vector<std::string> words = words_of(without_bracket(header));
+    while (words.size() > 1 && std::ranges::find(unit_words, words.back()) != unit_words.end()) {
+        words.pop_back();
+    }
+    std::string joined;
+    for (const std::string& word : words) {
+        joined += word;
+    }
+    return joined;
+}
+
+int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {
+    require_known_meanings(overrides);
+    for (const auto& [key, name] : overrides) {
+        if (key == to_string(meaning)) {
+            if (const int column = column_named(table, name); column >= 0) {
+                return column;
+            }
+        }
+    }
+    return column_of_alias(table, meaning);
+}
+
+int find_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {
+    const int column = find_optional_column(table, meaning, overrides);
+    const auto named = std::ranges::find(overrides, to_string(meaning), &ColumnNames::value_type::first);
+    if (column < 0 && named != overrides.end()) {
+        throw UsageError("--columns " + named->first + "=" + named->second + ": " + table.file +
+                         " has no such column; it has " + list(table.columns));
+    }
+    return column;
+}
+
+std::optional<double> parse_number(const std::string& text) {
+    std::size_t begin = text.find_first_not_of(" \t");
+    if (begin == std::string::npos) {
+        return std::nullopt;
+    }
+    if (text[begin] == '+' && begin + 1 < text.size() && text[begin + 1] != '-') {
+        ++begin;
+    }
+    const char* const last = text.data() + text.find_last_not_of(" \t") + 1;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data() + begin, last, value);
+    return error == std::errc() && end == last && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace terratet

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Opening vector sources with GDAL, for the readers of this floor: never installed.
+
+#include <gdal_priv.h>
+
+#include <memory>
+#include <string>
+
+#include "io/source.hpp"
+
+namespace terratet {
+
+/// Keeps what GDAL says on this thread, so that nothing is printed and exceptions can quote it. Must outlive the
+/// datasets used under it, for closing may speak too.
+class GdalMessages {
+  public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    /// The last failure, or else the last warning; empty for none.
+    [[nodiscard]] std::string last() const { return failure_.empty() ? warning_ : failure_; }
+
+  private:
+    static void CPL_STDCALL receive(CPLErr severity, CPLErrorNum number, const char* text);
+
+    std::string failure_;
+    std::string warning_;
+};
+
+struct DatasetCloser {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+
+/// Opens read-only with a list of allowed drivers: GDAL's DXF reader can hang on hostile input, its GML one writes
+/// beside the file. A text file without a known extension is tried as CSV. Throws InputError: not found, a folder,
+/// empty, binary, UTF-16, of no known format.
+Dataset open_vector(const Source& source);
+
+/// The layer that `source` names: by sql, by name, or the first; the filter set. Throws InputError (lists the layers
+/// there are). `result_set` releases the result of a statement; keep it as long as the layer.
+struct ResultSetReleaser {
+    GDALDataset* dataset = nullptr;
+    void operator()(OGRLayer* layer) const { dataset->ReleaseResultSet(layer); }
+};
+using ResultSet = std::unique_ptr<OGRLayer, ResultSetReleaser>;
+OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalMessages& messages, ResultSet& result_set);
+
+/// Text as UTF-8: unchanged when it is, else taken for Windows-1252.
+std::string utf8(const char* text);
+
+}  // namespace terratet

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Surfaces from files, one reader per format, dispatched by content:
+/// Surfaces from files, one reader per format, dispatched by content (docs/input-surfaces.md):
 ///
 /// | format | reader | notes |
 /// |---|---|---|
 /// | GOCAD TSurf (.ts) | read_tsurf | own parser; several objects and TFACEs a file, ZPOSITIVE, units |
-/// | TIN Z, PolyhedralSurface Z, MultiPolygon Z, Polygon Z | read_ogr_surfaces | any OGR layer; one surface a feature |
-/// | points x, y, z and fault name | read_fault_points | any table; triangulated in the best-fit plane |
+/// | TIN Z, PolyhedralSurface Z, MultiPolygon Z, Polygon Z | read_ogr_surfaces | any OGR layer; features of one name
+/// joined | | points x, y, z and fault name | read_fault_points | any table; triangulated in the best-fit plane |
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/crs.hpp"
@@ -25,17 +27,29 @@ struct RawSurfaces {
     Crs crs;
 };
 
+/// Column names given for meanings (`--columns name=FLT`).
+using ColumnNames = std::vector<std::pair<std::string, std::string>>;
+
 /// Dispatches. Triangles with an index out of range, too few corners or unacceptable coordinates are rejected into
 /// `diagnostics` with their line; throws InputError when nothing usable is left or the file is not of a known kind.
-RawSurfaces read_surfaces(const Source& source, SurfaceKind kind,
-                          const std::vector<std::pair<std::string, std::string>>& columns, Diagnostics& diagnostics);
+RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns, Diagnostics& diagnostics);
 
-/// Is this a GOCAD file? Looks at its first line.
+/// Is this a GOCAD file? Looks at its first line. False also for what cannot be opened.
 bool is_gocad(const std::string& path);
 
+/// One surface a TSurf object, its TFACEs joined; objects of other kinds are noted. Vertices stay as they are in the
+/// file, in its order. When the file states a length unit, coordinates come in the unit of `source.srs`, or in metres
+/// when that is empty; so a caller that has a CRS for the file puts it there. Memory is a small multiple of the file's
+/// size.
 RawSurfaces read_tsurf(const Source& source, SurfaceKind kind, Diagnostics& diagnostics);
-RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, Diagnostics& diagnostics);
-RawSurfaces read_fault_points(const Source& source, SurfaceKind kind,
-                              const std::vector<std::pair<std::string, std::string>>& columns, Diagnostics& diagnostics);
+
+/// One surface for all features of a name. Without a name column: one a feature, or one a layer when its features are
+/// single polygons. Corners at bit-identical positions become one vertex, in order of first appearance.
+RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
+                              Diagnostics& diagnostics);
+
+/// One surface for all points of a name, or for the whole file without a name column.
+RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const ColumnNames& columns,
+                              Diagnostics& diagnostics);
 
 }  // namespace terratet

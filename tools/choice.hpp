@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// One word out of a few.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tess/error.hpp"
+
+namespace terratet::tools {
+
+/// What `word` stands for. Throws UsageError that names the option and lists what there is.
+template <class T>
+T choose(const std::string& option, const std::string& word, const std::vector<std::pair<std::string, T>>& choices) {
+    std::string known;
+    for (const auto& [name, value] : choices) {
+        if (name == word) {
+            return value;
+        }
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    throw UsageError(option + ": '" + word + "' is not one of " + known);
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/spdlog.h>
+
+#include "tess/error.hpp"
+#include "tools/command.hpp"
+#include "tools/outputs.hpp"
+#include "tools/progress_display.hpp"
+#include "tools/report.hpp"
+#include "tools/run_build.hpp"
+#include "tools/session.hpp"
+
+namespace terratet::tools {
+namespace {
+
+class Export final : public Command {
+  public:
+    Syntax syntax() override {
+        Syntax syntax{"export", export_options(exporting_), {"MODEL.gpkg and OUTPUT", 2, 1000, &paths_}};
+        append(syntax, run_options(run_));
+        return syntax;
+    }
+
+    int run(const std::vector<Given>&) override {
+        const Stopwatch total;
+        const std::string& input = paths_.front();
+        const std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
+        for (const auto& output : outputs) {
+            if (names_model(output)) {
+                throw UsageError(output + ": is a model; export writes other formats");
+            }
+        }
+        check_export_arguments(exporting_);
+        check_outputs(outputs, {input}, exporting_, run_);
+
+        const ThreadLimit threads(run_.threads);
+        const Model model = load_model(input);
+        RunRecord record;
+        record.model = &model;
+        const Stopwatch writing;
+        {
+            ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
+            record.outputs = write_outputs(model, outputs, exporting_, run_, {}, display.callback());
+        }
+        record.write_seconds = writing.seconds();
+        record.total_seconds = total.seconds();
+        write_report(record, run_);
+        spdlog::info("{}", summary_text(record));
+        return exit_done;
+    }
+
+  private:
+    ExportArguments exporting_;
+    RunArguments run_;
+    std::vector<std::string> paths_;
+};
+
+}  // namespace
+
+CommandEntry export_command() {
+    return {"export",
+            "a model into meshes, scenes and voxels",
+            "MODEL.gpkg OUTPUT…",
+            "Writes a model in one or several formats, each by its extension.",
+            {"terratet export site.gpkg site.vtu site.glb", "terratet export -tr 5m site.gpkg site.vdb",
+             "terratet export --clip --compress site.gpkg extent.vtu"},
+            [] { return std::make_unique<Export>(); }};
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "tess/error.hpp"
+#include "tools/command.hpp"
+#include "tools/describe.hpp"
+#include "tools/session.hpp"
+
+namespace terratet::tools {
+namespace {
+
+/// A layer of triangles is a table too, of attributes only: what it is for are its surfaces.
+nlohmann::ordered_json describe_input(const Source& source) {
+    Diagnostics diagnostics;
+    if (is_gocad(source.path)) {
+        return describe_surfaces(read_surfaces(source, SurfaceKind::fault, {}, diagnostics), diagnostics);
+    }
+    const Table table = read_table(source);
+    const bool has_places = !table.points.empty() || find_column(table, Meaning::x, {}) >= 0;
+    if (!has_places) {
+        try {
+            const RawSurfaces surfaces = read_surfaces(source, SurfaceKind::fault, {}, diagnostics);
+            return describe_surfaces(surfaces, diagnostics);
+        } catch (const InputError&) {
+            // A plain table, then.
+        }
+    }
+    return describe_table(table);
+}
+
+class Info final : public Command {
+  public:
+    Syntax syntax() override {
+        return {"info",
+                {{"Options",
+                  {{{"json"}, "", "as JSON", &json_},
+                   {{"digest"}, "", "of a model: the hash of its content, and nothing else", &digest_}}}},
+                {"FILE", 1, 1, &paths_}};
+    }
+
+    int run(const std::vector<Given>&) override {
+        const Source source = parse_source(paths_.front());
+        std::string text;
+        if (is_model(source.path)) {
+            const Model model = load_model(source.path);
+            text = digest_ ? model_digest(model) + "\n" : rendered(describe_model(model, load_journal(source.path)));
+        } else if (digest_) {
+            throw InputError(source.path + ": not a Terratet model; --digest is for models");
+        } else {
+            text = rendered(describe_input(source));
+        }
+        if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
+            throw Error("standard output cannot be written to");
+        }
+        return exit_done;
+    }
+
+  private:
+    [[nodiscard]] std::string rendered(const nlohmann::ordered_json& description) const {
+        using Json = nlohmann::ordered_json;
+        return json_ ? description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : as_text(description);
+    }
+
+    std::vector<std::string> paths_;
+    bool json_ = false;
+    bool digest_ = false;
+};
+
+}  // namespace
+
+CommandEntry info_command() {
+    return {
+        "info",
+        "what is in an input or a model",
+        "FILE[,layer=L]",
+        "Says what a model, a table or a file of surfaces holds: coordinates, columns and their ranges, surfaces and "
+        "their dips, criteria and history.",
+        {"terratet info site.gpkg", "terratet info fault.ts", "terratet info --json 'wells.gpkg,layer=collar'",
+         "terratet info --digest site.gpkg"},
+        [] { return std::make_unique<Info>(); }};
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/model_options.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "io/read_table.hpp"
+#include "io/source.hpp"
+#include "tess/error.hpp"
+#include "tools/choice.hpp"
+#include "tools/text.hpp"
+
+namespace terratet::tools {
+namespace {
+
+/// 0 for no text: the default is chosen where the data are known.
+double positive_length(const std::string& option, const std::string& text, double metres_per_unit) {
+    if (text.empty()) {
+        return 0;
+    }
+    double value = 0;
+    try {
+        value = parse_length(text, metres_per_unit);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}: {}", option, error.what()));
+    }
+    if (!(value > 0)) {
+        throw UsageError(fmt::format("{}: '{}' is not above 0", option, text));
+    }
+    return value;
+}
+
+/// True coordinates of two corners.
+Box3 parse_extent(const std::string& text) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const auto number = parse_number(text.substr(begin, end - begin));
+        if (!number) {
+            throw UsageError(fmt::format("--extent: '{}' is not a number", text.substr(begin, end - begin)));
+        }
+        numbers.push_back(*number);
+        begin = end + 1;
+    }
+    if (numbers.size() != 6) {
+        throw UsageError(fmt::format(
+            "--extent: six numbers are needed, xmin,ymin,zmin,xmax,ymax,zmax, and {} are given", numbers.size()));
+    }
+    const Box3 box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+    if (!is_acceptable(box.lo) || !is_acceptable(box.hi)) {
+        throw UsageError(fmt::format("--extent: a coordinate is beyond {}", short_number(max_coordinate)));
+    }
+    if (!(box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z)) {
+        throw UsageError(fmt::format("--extent: '{}' has no volume; the order is xmin,ymin,zmin,xmax,ymax,zmax", text));
+    }
+    return box;
+}
+
+struct PropertyLimit {
+    std::string property;
+    double limit;
+};
+
+PropertyLimit parse_limit(const std::string& option, const std::string& text) {
+    const auto equals = text.rfind('=');
+    const auto limit = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (!limit || equals == 0) {
+        throw UsageError(fmt::format("{}: '{}' is not PROPERTY=NUMBER, such as K=0.5", option, text));
+    }
+    if (*limit < 0) {
+        throw UsageError(fmt::format("{}: '{}' is below 0", option, text));
+    }
+    return {text.substr(0, equals), *limit};
+}
+
+void set_limits(const std::string& option, const std::vector<std::string>& texts, double VariationLimits::*which,
+                const std::vector<Property>& properties, Criteria& criteria) {
+    for (const auto& text : texts) {
+        const auto [name, limit] = parse_limit(option, text);
+        const auto named = [&, &wanted = name](const Property& property) { return property.name == wanted; };
+        const auto found = std::find_if(properties.begin(), properties.end(), named);
+        if (found == properties.end()) {
+            std::string known;
+            for (const auto& property : properties) {
+                known += (known.empty() ? "" : ", ") + property.name;
+            }
+            throw UsageError(fmt::format("{}: there is no property '{}'; there is {}", option, name, known));
+        }
+        criteria.variation.resize(properties.size());
+        criteria.variation[static_cast<std::size_t>(found - properties.begin())].*which = limit;
+    }
+}
+
+Criteria criteria_without_variation(const ModelArguments& a, double metres_per_unit) {
+    Criteria criteria;
+    criteria.l_min = positive_length("--lmin", a.l_min, metres_per_unit);
+    criteria.l_max = positive_length("--lmax", a.l_max, metres_per_unit);
+    criteria.radius_edge = a.radius_edge;
+    criteria.aspect = a.aspect;
+    criteria.dihedral_deg = a.dihedral_deg;
+    criteria.v_min = a.v_min;
+    criteria.v_max = a.v_max;
+    return criteria;
+}
+
+/// Contradictions among what is given; lengths left to be chosen contradict nothing.
+void validate_given(Criteria criteria) {
+    if (criteria.l_min == 0) {
+        criteria.l_min = criteria.l_max > 0 ? criteria.l_max / 4 : 1;
+    }
+    if (criteria.l_max == 0) {
+        criteria.l_max = 4 * criteria.l_min;
+    }
+    validate(criteria);
+}
+
+DensityMode density_mode(const std::string& text) {
+    return choose<DensityMode>("--density", text,
+                               {{"canonical", DensityMode::canonical}, {"paper", DensityMode::paper}});
+}
+
+}  // namespace
+
+std::vector<OptionGroup> model_options(ModelArguments& a) {
+    return {
+        {"Resolution and criteria (lengths in the model's unit, or 20m, 65ft; 0 switches a criterion off)",
+         {
+             {{"lmin"},
+              "LENGTH",
+              "no new vertex comes nearer to another; by default a hundredth of the diagonal",
+              &a.l_min},
+             {{"lmax"}, "LENGTH", "longest edge; by default four times --lmin", &a.l_max},
+             {{"df-min"},
+              "P=V",
+              "cells in which property P varies less are left as they are (decades if P:log10)",
+              &a.df_min},
+             {{"df-max"}, "P=V", "largest variation of property P along an edge", &a.df_max},
+             {{"radius-edge"},
+              "R",
+              "largest circumradius over shortest edge; above: skinny. Default 2",
+              &a.radius_edge},
+             {{"aspect"}, "B", "largest circumradius over inradius; above: flat. Default 8", &a.aspect},
+             {{"dihedral"}, "DEGREES", "smallest dihedral angle, for the clean-up. Default 5", &a.dihedral_deg},
+             {{"vmin"}, "V", "smallest volume, for the clean-up", &a.v_min},
+             {{"vmax"}, "V", "largest volume", &a.v_max},
+             {{"max-vertices"}, "N", "give up beyond. Default 50000000", &a.max_vertices},
+         }},
+        {"The model",
+         {
+             {{"te", "extent"},
+              "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX",
+              "what to model; by default the data's box and --pad",
+              &a.extent,
+              6},
+             {{"pad"}, "LENGTH", "around the data's box; by default --lmax", &a.pad},
+             {{"density"},
+              "HOW",
+              "canonical (default) keeps all samples that fit --lmin; paper deletes as the paper does",
+              &a.density},
+             {{"fault-mode"}, "HOW", "paired (default): two sheets of mirrored points", &a.fault_mode},
+             {{"fault-spacing"}, "LENGTH", "between a fault's points; by default --lmin", &a.fault_spacing},
+             {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},
+             {{"estimator"},
+              "SPEC",
+              "natural (default), nearest, idw[:power=2][:radius=R][:max_points=12]",
+              &a.estimator},
+         }},
+    };
+}
+
+void check_model_arguments(const ModelArguments& a) {
+    if (!a.extent.empty()) {
+        parse_extent(a.extent);
+        if (!a.pad.empty()) {
+            throw UsageError("--pad goes with the data's box: it is not for a given --extent");
+        }
+    }
+    if (!a.pad.empty() && parse_length(a.pad, 1.0) < 0) {
+        throw UsageError(fmt::format("--pad: '{}' is below 0", a.pad));
+    }
+    validate_given(criteria_without_variation(a, 1.0));
+    for (const auto& [option, texts] : {std::pair("--df-min", &a.df_min), std::pair("--df-max", &a.df_max)}) {
+        for (const auto& text : *texts) {
+            parse_limit(option, text);
+        }
+    }
+    density_mode(a.density);
+    if (a.fault_mode == "exact") {
+        throw UsageError("--fault-mode: exact is not available in this version; use paired");
+    }
+    choose<int>("--fault-mode", a.fault_mode, {{"paired", 0}});
+    const double spacing = positive_length("--fault-spacing", a.fault_spacing, 1.0);
+    const double width = positive_length("--fault-width", a.fault_width, 1.0);
+    if (spacing > 0 && width > spacing) {
+        throw UsageError("--fault-width: the two sheets of a fault must be nearer to each other than --fault-spacing");
+    }
+    parse_estimator(a.estimator);
+    if (a.max_vertices == 0) {
+        throw UsageError("--max-vertices: at least 1 is needed");
+    }
+}
+
+BuildOptions build_options(const ModelArguments& a, const Site& site) {
+    const double unit = site.frame.metres_per_unit;
+    BuildOptions options;
+    if (!a.extent.empty()) {
+        const Box3 world = parse_extent(a.extent);
+        options.extent = {site.frame.to_local(world.lo), site.frame.to_local(world.hi)};
+    }
+    options.pad = a.pad.empty() ? -1 : parse_length(a.pad, unit);
+    options.criteria = criteria_without_variation(a, unit);
+    set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
+    set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
+    validate_given(options.criteria);
+    options.density = density_mode(a.density);
+    options.faults.spacing = positive_length("--fault-spacing", a.fault_spacing, unit);
+    options.faults.width = positive_length("--fault-width", a.fault_width, unit);
+    options.refine.max_vertices = a.max_vertices;
+    options.estimator = parse_estimator(a.estimator).to_string();
+    return options;
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What to build: the options behind tess/build.hpp. Lengths stay text until the unit of the model's CRS is known.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interp/estimator.hpp"
+#include "tess/build.hpp"
+#include "tools/option.hpp"
+
+namespace terratet::tools {
+
+struct ModelArguments {
+    std::string extent;
+    std::string pad;
+    std::string l_min;
+    std::string l_max;
+    std::vector<std::string> df_min;
+    std::vector<std::string> df_max;
+    double radius_edge = Criteria{}.radius_edge;
+    double aspect = Criteria{}.aspect;
+    double dihedral_deg = Criteria{}.dihedral_deg;
+    double v_min = 0;
+    double v_max = 0;
+    std::string density = "canonical";
+    std::string fault_mode = "paired";
+    std::string fault_spacing;
+    std::string fault_width;
+    std::string estimator = EstimatorSpec{}.name;
+    std::uint64_t max_vertices = RefineOptions{}.max_vertices;
+};
+
+std::vector<OptionGroup> model_options(ModelArguments& arguments);
+
+/// Everything that can be refused before the inputs are read: words, numbers, contradictions. Throws UsageError.
+void check_model_arguments(const ModelArguments& arguments);
+
+/// In the frame and with the properties of `site`. Throws UsageError: also for a property there is none of.
+BuildOptions build_options(const ModelArguments& arguments, const Site& site);
+
+}  // namespace terratet::tools

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/outputs.hpp"
+
+#include <charconv>
+#include <ctime>
+#include <filesystem>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/output_file.hpp"
+#include "io/source.hpp"
+#include "tess/error.hpp"
+
+namespace terratet::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code error;
+    return a == b || fs::equivalent(a, b, error);
+}
+
+/// Rethrows the current exception with the outputs that stand already.
+[[noreturn]] void rethrow_naming(const std::vector<OutputRecord>& written) {
+    if (written.empty()) {
+        throw;
+    }
+    std::string names;
+    for (const auto& record : written) {
+        names += (names.empty() ? "" : ", ") + record.path;
+    }
+    try {
+        throw;
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}; written before it: {}", error.what(), names));
+    } catch (const std::exception& error) {
+        throw Error(fmt::format("{}; written before it: {}", error.what(), names));
+    }
+}
+
+std::time_t now() {
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+        const std::string text = epoch;
+        std::time_t seconds = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+        if (error != std::errc() || end != text.data() + text.size() || text.empty()) {
+            throw UsageError(fmt::format("SOURCE_DATE_EPOCH: '{}' is not a number of seconds", text));
+        }
+        return seconds;
+    }
+    return std::time(nullptr);
+}
+
+}  // namespace
+
+bool names_model(const std::string& path) {
+    return path.ends_with(".gpkg") || path.starts_with("PG:");
+}
+
+void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
+                   const ExportArguments& arguments, const RunArguments& run) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto& path = paths[i];
+        if (!names_model(path)) {
+            output_format(path, arguments.format);
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (same_file(path, paths[j])) {
+                throw UsageError(fmt::format("{}: given twice as an output", path));
+            }
+        }
+        for (const auto& input : inputs) {
+            if (same_file(path, parse_source(input).path)) {
+                throw UsageError(fmt::format("{}: is an input; an output cannot replace it", path));
+            }
+        }
+        if (!path.starts_with("PG:")) {
+            require_writable(path, run.overwrite);
+        }
+    }
+    if (!run.report.empty() && run.report != "-") {
+        require_writable(run.report, run.overwrite);
+    }
+}
+
+std::vector<OutputRecord> write_outputs(const Model& model, const std::vector<std::string>& paths,
+                                        const ExportArguments& arguments, const RunArguments& run,
+                                        const JournalEntry& entry, const Progress& progress) {
+    ExportOptions options = writer_options(arguments, model);
+    options.overwrite = run.overwrite;
+    options.progress = progress;
+    const TetMesh mesh = tessellate(model).mesh();
+    const CellTable cells = describe_cells(model, mesh);
+    const ModelView view{model, mesh, cells};
+    std::vector<OutputRecord> written;
+    for (const auto& path : paths) {
+        try {
+            report_progress(progress, "write", static_cast<double>(written.size()) / static_cast<double>(paths.size()));
+            if (names_model(path)) {
+                save_model(path, model, entry, run.overwrite);
+                std::error_code no_file;
+                const auto bytes = fs::file_size(path, no_file);
+                written.push_back({path, no_file ? 0 : bytes});
+            } else {
+                written.push_back(export_model(view, path, options));
+            }
+        } catch (...) {
+            rethrow_naming(written);
+        }
+    }
+    return written;
+}
+
+JournalEntry journal_entry(const std::string& command, const std::vector<Given>& given) {
+    nlohmann::ordered_json arguments = nlohmann::ordered_json::object();
+    for (const auto& option : given) {
+        if (option.group != run_group) {
+            arguments[option.name] = option.values;
+        }
+    }
+    return {0, fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now())), command, arguments.dump()};
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/report.hpp"
+
+#include <sys/resource.h>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "io/output_file.hpp"
+#include "tess/error.hpp"
+#include "tools/version.hpp"
+
+namespace terratet::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // kilobytes on Linux
+}
+
+Json input_json(const BuildRecord& build) {
+    Json rejected = Json::array();
+    for (const auto& record : build.diagnostics.rejected) {
+        rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
+    }
+    return {{"boreholes", build.counts.boreholes},
+            {"samples", build.counts.samples},
+            {"faults", build.counts.faults},
+            {"rejected", rejected},
+            {"notes", build.diagnostics.notes}};
+}
+
+Json faults_json(const std::vector<FaultAccount>& accounts) {
+    Json faults = Json::array();
+    for (const auto& account : accounts) {
+        faults.push_back({{"name", account.name},
+                          {"file", account.file},
+                          {"used", account.used},
+                          {"reason", account.reason},
+                          {"parts", account.parts},
+                          {"seeds", account.seeds},
+                          {"area_in", account.area_in},
+                          {"area_used", account.area_used},
+                          {"area_outside", account.area_outside},
+                          {"area_trimmed", account.area_trimmed},
+                          {"area_refused", account.area_refused},
+                          {"deviation_max", account.deviation_max},
+                          {"dropped_triangles", account.dropped_triangles}});
+    }
+    return faults;
+}
+
+Json preprocess_json(const BuildReport& report) {
+    return {{"samples_kept", report.density.kept.size()},
+            {"samples_deleted", report.density.deleted},
+            {"samples_near_faults", report.density.near_faults.size()},
+            {"seeds", report.seeds},
+            {"domain_vertices", report.domain_vertices},
+            {"coincident", report.coincident},
+            {"outside_extent", report.outside_extent}};
+}
+
+Json initial_json(const CellStatistics& cells) {
+    return {{"vertices", cells.vertices},
+            {"tetrahedra", cells.tetrahedra},
+            {"skinny_percent", cells.skinny_percent},
+            {"flat_percent", cells.flat_percent},
+            {"bad_percent", cells.bad_percent}};
+}
+
+Json refine_json(const RefineReport& report) {
+    Json skipped = Json::object();
+    for (const auto& [reason, cells] : report.skipped) {
+        skipped[to_string(reason)] = cells;
+    }
+    // Refinement only inserts: vertices are neither moved nor removed.
+    return {{"inserted", report.inserted}, {"moved", 0}, {"removed", 0}, {"bound", report.bound}, {"skipped", skipped}};
+}
+
+Json final_json(const RunRecord& record) {
+    const CellStatistics& cells = record.build->report.final;
+    const double metres = record.model->frame.metres_per_unit;
+    return {{"vertices", cells.vertices},
+            {"tetrahedra", cells.tetrahedra},
+            {"gap_tetrahedra", cells.gap_tetrahedra},
+            {"skinny_percent", cells.skinny_percent},
+            {"flat_percent", cells.flat_percent},
+            {"bad_percent", cells.bad_percent},
+            {"dihedral_deg",
+             {{"min", cells.dihedral_min_deg},
+              {"p1", cells.dihedral_p1_deg},
+              {"p5", cells.dihedral_p5_deg},
+              {"median", cells.dihedral_median_deg}}},
+            {"edge_m", {{"min", cells.edge_min * metres}, {"max", cells.edge_max * metres}}},
+            {"fault_crossing_edges", record.build->report.fault_crossing_edges},
+            {"delaunay", tessellate(*record.model).is_delaunay()},
+            {"regions", cells.regions}};
+}
+
+Json fidelity_json(const RunRecord& record) {
+    Json fidelity = Json::object();
+    const auto& all = record.build->report.fidelity;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+        fidelity[record.model->properties[p].name] = {
+            {"rms", all[p].rms}, {"max", all[p].max}, {"count", all[p].count}};
+    }
+    return fidelity;
+}
+
+Json seconds_json(const RunRecord& record) {
+    Json seconds = Json::object();
+    if (record.build != nullptr) {
+        for (const char* stage : {"read", "density", "boundary", "refine", "estimate"}) {
+            const auto found = record.build->seconds.find(stage);
+            seconds[stage] = found == record.build->seconds.end() ? 0.0 : found->second;
+        }
+    }
+    seconds["write"] = record.write_seconds;
+    seconds["total"] = record.total_seconds;
+    return seconds;
+}
+
+}  // namespace
+
+std::string report_text(const RunRecord& record) {
+    const Frame& frame = record.model->frame;
+    Json report;
+    report["terratet"] = version;
+    if (record.build != nullptr) {
+        report["input"] = input_json(*record.build);
+    }
+    report["frame"] = {{"crs", frame.crs_name.empty() ? "local" : frame.crs_name},
+                       {"unit", frame.unit},
+                       {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}}};
+    if (record.build != nullptr) {
+        const BuildRecord& build = *record.build;
+        Json defaults = Json::object();
+        for (const auto& [option, value] : build.defaults) {
+            defaults[option] = value;
+        }
+        Json options = Json::object();
+        for (const auto& [key, value] : build.estimator.options) {
+            options[key] = value;
+        }
+        report["defaults"] = defaults;
+        report["preprocess"] = preprocess_json(build.report);
+        report["faults"] = faults_json(build.report.faults);
+        report["initial"] = initial_json(build.report.initial);
+        report["refine"] = refine_json(build.report.refine);
+        report["final"] = final_json(record);
+        report["fidelity"] = fidelity_json(record);
+        report["estimator"] = {{"name", build.estimator.name}, {"options", options}, {"fallbacks", build.fallbacks}};
+    }
+    report["outputs"] = Json::array();
+    for (const auto& output : record.outputs) {
+        report["outputs"].push_back({{"path", output.path}, {"bytes", output.bytes}});
+    }
+    report["seconds"] = seconds_json(record);
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    // Paths and table cells may hold bytes that are no UTF-8: they must not cost the report.
+    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_report(const RunRecord& record, const RunArguments& run) {
+    if (run.report.empty()) {
+        return;
+    }
+    const std::string text = report_text(record);
+    if (run.report == "-") {
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+            throw Error("the report could not be written to standard output");
+        }
+        return;
+    }
+    OutputFile file(run.report, run.overwrite);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace terratet::tools

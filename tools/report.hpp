@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What was done, for programs (the report, docs/report.md) and for people (the summary).
+
+#include <string>
+#include <vector>
+
+#include "io/export.hpp"
+#include "tools/pipeline.hpp"
+
+namespace terratet::tools {
+
+/// One call that made outputs.
+struct RunRecord {
+    const Model* model = nullptr;
+    const BuildRecord* build = nullptr;  ///< null: the model was there already
+    std::vector<OutputRecord> outputs;
+    double write_seconds = 0;
+    double total_seconds = 0;
+};
+
+/// JSON with the keys of docs/report.md in their order. Verifies that the model is Delaunay, about 10 µs a cell.
+std::string report_text(const RunRecord& record);
+
+/// A few lines with everything a person checks first.
+std::string summary_text(const RunRecord& record);
+
+/// To the file, or to standard output for "-".
+void write_report(const RunRecord& record, const RunArguments& run);
+
+}  // namespace terratet::tools

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+
+#include "tess/error.hpp"
+#include "tools/command.hpp"
+#include "tools/command_line.hpp"
+#include "tools/help.hpp"
+#include "tools/interrupt.hpp"
+#include "tools/text.hpp"
+#include "tools/version.hpp"
+
+namespace terratet::tools {
+namespace {
+
+/// Summaries and warnings go to standard error as they are; standard output carries data only.
+void start_log() {
+    auto logger = std::make_shared<spdlog::logger>("terratet", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    logger->set_pattern("%v");
+    spdlog::set_default_logger(std::move(logger));
+}
+
+int print(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw Error("standard output cannot be written to");
+    }
+    return exit_done;
+}
+
+bool asks_for_help(const std::string& argument) {
+    return argument == "--help" || argument == "-help" || argument == "-h";
+}
+
+int dispatch(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) {
+        throw UsageError("no command; 'terratet help' lists them");
+    }
+    const std::string& name = arguments.front();
+    if (name == "--version" || name == "-version") {
+        return print(std::string("terratet ") + version + "\n");
+    }
+    if (name == "help" || asks_for_help(name)) {
+        return print(arguments.size() > 1 ? help_on(arguments[1]) : general_help());
+    }
+    const CommandEntry& entry = find_command(name);
+    const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+    if (std::any_of(rest.begin(), rest.end(), asks_for_help)) {
+        return print(command_help(entry));
+    }
+    const auto command = entry.make();
+    const auto given = parse_arguments(command->syntax(), rest);
+    const bool quiet = std::any_of(given.begin(), given.end(), [](const Given& option) { return option.name == "q"; });
+    spdlog::set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+    return command->run(given);
+}
+
+int fail(int exit_code, const char* what) {
+    std::fprintf(stderr, "terratet: %s\n", one_line(what).c_str());
+    return exit_code;
+}
+
+}  // namespace
+
+int run_terratet(const std::vector<std::string>& arguments) {
+    try {
+        start_log();
+        watch_for_interrupts();
+        return dispatch(arguments);
+    } catch (const UsageError& error) {
+        return fail(exit_usage, error.what());
+    } catch (const InputError& error) {
+        return fail(exit_input, error.what());
+    } catch (const Cancelled&) {
+        return fail(exit_failed, "interrupted; nothing was written");
+    } catch (const std::bad_alloc&) {
+        return fail(exit_failed, "out of memory; a larger --lmin or --voxel-size needs less");
+    } catch (const std::exception& error) {
+        return fail(exit_failed, error.what());
+    }
+}
+
+struct ThreadLimit::Control {
+    tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(std::uint64_t threads) {
+    if (threads > 0) {
+        control_ = std::make_unique<Control>(
+            Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, threads)});
+    }
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace terratet::tools

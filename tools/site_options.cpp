@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/site_options.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/crs.hpp"
+#include "io/read_table.hpp"
+#include "tess/error.hpp"
+#include "tess/property.hpp"
+#include "tools/choice.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::pair<std::string, std::string> parse_column(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+        throw UsageError(fmt::format("--columns: '{}' is not MEANING=COLUMN, such as id=WELL", text));
+    }
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// -where and its like name columns of one table: with several inputs each says its own.
+void apply_to_single_input(const SiteArguments& arguments, std::vector<Source*>& sources) {
+    if (arguments.layer.empty() && arguments.where.empty() && arguments.sql.empty()) {
+        return;
+    }
+    if (sources.size() != 1) {
+        const char* name = !arguments.layer.empty() ? "layer" : !arguments.where.empty() ? "where" : "sql";
+        throw UsageError(fmt::format("--{0} is for a single input; with several, say which: --log 'FILE,{0}=…'", name));
+    }
+    if (!arguments.layer.empty()) {
+        sources.front()->layer = arguments.layer;
+    }
+    if (!arguments.where.empty()) {
+        sources.front()->where = arguments.where;
+    }
+    if (!arguments.sql.empty()) {
+        sources.front()->sql = arguments.sql;
+    }
+}
+
+void parse_azimuth(const std::string& text, SiteInputs& inputs) {
+    if (const std::string magnetic = "magnetic:"; text.starts_with(magnetic)) {
+        const auto declination = parse_number(text.substr(magnetic.size()));
+        if (!declination || std::abs(*declination) > 180) {
+            throw UsageError(
+                fmt::format("--azimuth: '{}' carries no declination in degrees, as in magnetic:-7.5", text));
+        }
+        inputs.azimuth = AzimuthReference::magnetic;
+        inputs.declination_deg = *declination;
+    } else if (text == "grid" || text == "true") {
+        inputs.azimuth = text == "grid" ? AzimuthReference::grid : AzimuthReference::true_north;
+    } else {
+        throw UsageError(fmt::format("--azimuth: '{}' is not one of grid, true, magnetic:DEGREES", text));
+    }
+}
+
+}  // namespace
+
+std::vector<OptionGroup> site_options(SiteArguments& a) {
+    return {
+        {"Inputs (FILE is anything GDAL opens, as FILE[,layer=L][,srs=CRS][,where=SQL])",
+         {
+             {{"boreholes"}, "FILE", "collar table: hole, x, y, z", &a.boreholes},
+             {{"survey"}, "FILE", "hole, depth, azimuth, dip; without it holes are vertical", &a.surveys},
+             {{"log"}, "FILE", "values along holes: hole, from, to (or depth), properties", &a.logs},
+             {{"samples"}, "FILE", "loose points: x, y, z, properties", &a.samples},
+             {{"faults"}, "FILE", "GOCAD TSurf, TIN or triangles, or points x, y, z, fault", &a.faults},
+             {{"surface"}, "FILE", "a horizon, kept with the model", &a.surfaces},
+         }},
+        {"What they mean",
+         {
+             {{"property"},
+              "NAME[:log10][:categorical][:unit=U]",
+              "what to model; every numeric column by default",
+              &a.properties},
+             {{"columns"},
+              "MEANING=COLUMN",
+              "a column not found by its name: id, x, y, z, from, to, depth, azimuth, dip, length, name",
+              &a.columns},
+             {{"s_srs", "source-crs"}, "CRS", "of the inputs that carry none", &a.source_crs},
+             {{"t_srs", "target-crs"}, "CRS", "of the model: the first projected one by default", &a.target_crs},
+             {{"desurvey"}, "HOW", "minimum-curvature (default), tangential, balanced-tangential", &a.desurvey},
+             {{"dip-convention"},
+              "HOW",
+              "auto (default), down-positive, down-negative, inclination",
+              &a.dip_convention},
+             {{"azimuth"}, "FROM", "grid (default), true, or magnetic:DECLINATION", &a.azimuth},
+             {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
+             {{"layer"}, "NAME", "layer of a single input", &a.layer},
+             {{"where"}, "SQL", "which rows of a single input", &a.where},
+             {{"sql"}, "SQL", "a statement instead of a layer, for a single input", &a.sql},
+             {{"oo"}, "KEY=VALUE", "open option for GDAL's driver", &a.open_options},
+         }},
+    };
+}
+
+SiteInputs site_inputs(const SiteArguments& a, bool strict) {
+    SiteInputs inputs;
+    std::vector<Source*> all;
+    const auto add = [&](const std::vector<std::string>& texts, std::vector<Source>& sources) {
+        for (const auto& text : texts) {
+            Source source = parse_source(text);
+            source.open_options.insert(source.open_options.end(), a.open_options.begin(), a.open_options.end());
+            sources.push_back(std::move(source));
+        }
+    };
+    add(a.boreholes, inputs.boreholes);
+    add(a.surveys, inputs.surveys);
+    add(a.logs, inputs.logs);
+    add(a.samples, inputs.samples);
+    add(a.faults, inputs.faults);
+    add(a.surfaces, inputs.surfaces);
+    for (auto* sources :
+         {&inputs.boreholes, &inputs.surveys, &inputs.logs, &inputs.samples, &inputs.faults, &inputs.surfaces}) {
+        for (auto& source : *sources) {
+            all.push_back(&source);
+        }
+    }
+    if (all.empty()) {
+        throw UsageError("no input: give --boreholes with --log, or --samples");
+    }
+    if (!inputs.logs.empty() && inputs.boreholes.empty()) {
+        throw UsageError("--log needs the holes' collars: give --boreholes");
+    }
+    if (!inputs.surveys.empty() && inputs.boreholes.empty()) {
+        throw UsageError("--survey needs the holes' collars: give --boreholes");
+    }
+    apply_to_single_input(a, all);
+
+    for (const auto& crs : {a.source_crs, a.target_crs}) {
+        if (!crs.empty()) {
+            parse_crs(crs);  // refused before anything is read
+        }
+    }
+    inputs.source_crs = a.source_crs;
+    inputs.target_crs = a.target_crs;
+    for (const auto& property : a.properties) {
+        parse_property(property);
+    }
+    inputs.properties = a.properties;
+    for (const auto& column : a.columns) {
+        inputs.columns.push_back(parse_column(column));
+    }
+    inputs.desurvey = choose<Desurvey>("--desurvey", a.desurvey,
+                                       {{"minimum-curvature", Desurvey::minimum_curvature},
+                                        {"tangential", Desurvey::tangential},
+                                        {"balanced-tangential", Desurvey::balanced_tangential}});
+    inputs.dip = choose<DipConvention>("--dip-convention", a.dip_convention,
+                                       {{"auto", DipConvention::automatic},
+                                        {"down-positive", DipConvention::down_positive},
+                                        {"down-negative", DipConvention::down_negative},
+                                        {"inclination", DipConvention::inclination}});
+    parse_azimuth(a.azimuth, inputs);
+    if (!a.depth_unit.empty()) {
+        parse_length("1" + a.depth_unit, 1.0);
+    }
+    inputs.depth_unit = a.depth_unit;
+    inputs.strict = strict;
+    return inputs;
+}
+
+}  // namespace terratet::tools

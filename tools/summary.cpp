@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "tools/report.hpp"
+#include "tools/text.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::string counted(std::uint64_t number, const std::string& thing) {
+    return grouped(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
+std::string line(const char* what, const std::string& text) {
+    return fmt::format("{:10}{}\n", what, wrapped(text, 10, 10, 100));
+}
+
+std::string input_lines(const BuildRecord& build) {
+    std::string out =
+        line("Read", fmt::format("{}, {}, {}", counted(build.counts.boreholes, "borehole"),
+                                 counted(build.counts.samples, "sample"), counted(build.counts.faults, "fault")));
+    constexpr std::size_t shown = 5;
+    const auto& rejected = build.diagnostics.rejected;
+    if (!rejected.empty()) {
+        out += line("Rejected", counted(rejected.size(), "record") + (rejected.size() > shown ? ", the first:" : ":"));
+    }
+    for (std::size_t i = 0; i < std::min(shown, rejected.size()); ++i) {
+        const auto& record = rejected[i];
+        out += line("", record.line > 0 ? fmt::format("{}:{}: {}", record.file, record.line, record.reason)
+                                        : fmt::format("{}: {}", record.file, record.reason));
+    }
+    for (const auto& note : build.diagnostics.notes) {
+        out += line("Note", note);
+    }
+    return out;
+}
+
+std::string build_lines(const BuildRecord& build, const Model& model) {
+    const BuildReport& report = build.report;
+    const char* unit = model.frame.unit == "metre" ? "m" : model.frame.unit.c_str();
+    std::string out;
+    if (!build.defaults.empty()) {
+        std::string chosen;
+        for (const auto& [option, value] : build.defaults) {
+            chosen += fmt::format("{}--{} {}", chosen.empty() ? "" : "  ", option, value);
+        }
+        out += line("Defaults", chosen);
+    }
+    out += line("Kept", fmt::format("{} of {}: {} too near another, {} near faults, {} outside, {} coincident",
+                                    grouped(report.density.kept.size()), counted(build.counts.samples, "sample"),
+                                    grouped(report.density.deleted), grouped(report.density.near_faults.size()),
+                                    grouped(report.outside_extent), grouped(report.coincident)));
+    for (const auto& fault : report.faults) {
+        out += line("Fault", fault.used ? fmt::format("{}: {}{}", fault.name, counted(fault.seeds, "seed"),
+                                                      fault.reason.empty() ? "" : "; " + fault.reason)
+                                        : fmt::format("{}: not used: {}", fault.name, fault.reason));
+    }
+    out += line("Initial",
+                fmt::format("{} vertices, {} tetrahedra; {:.1f} % skinny, {:.1f} % flat, {:.1f} % bad",
+                            grouped(report.initial.vertices), grouped(report.initial.tetrahedra),
+                            report.initial.skinny_percent, report.initial.flat_percent, report.initial.bad_percent));
+    std::string left;
+    for (const auto& [reason, cells] : report.refine.skipped) {
+        left += fmt::format("{}{} {}", left.empty() ? "; left as they are: " : ", ", grouped(cells), to_string(reason));
+    }
+    out += line("Refined", fmt::format("{} vertices inserted (at most {:.3g} can be){}",
+                                       grouped(report.refine.inserted), report.refine.bound, left));
+    const CellStatistics& cells = report.final;
+    out +=
+        line("Final", fmt::format("{} vertices, {} tetrahedra; {:.1f} % skinny, {:.1f} % flat, {:.1f} % bad; dihedral "
+                                  "angles from {:.1f}° (1 %: {:.1f}°); edges {:.4g} to {:.4g} {}; {}; {} across faults",
+                                  grouped(cells.vertices), grouped(cells.tetrahedra), cells.skinny_percent,
+                                  cells.flat_percent, cells.bad_percent, cells.dihedral_min_deg, cells.dihedral_p1_deg,
+                                  cells.edge_min, cells.edge_max, unit, counted(cells.regions, "region"),
+                                  counted(report.fault_crossing_edges, "edge")));
+    for (std::size_t p = 0; p < report.fidelity.size(); ++p) {
+        const auto& property = model.properties[p];
+        const auto& fit = report.fidelity[p];
+        out += line("Fidelity",
+                    fmt::format("{}: rms {:.3g}, largest {:.3g}{} at {}", property.name, fit.rms, fit.max,
+                                property.scale == Scale::log10 ? " decades" : "", counted(fit.count, "sample")));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string summary_text(const RunRecord& record) {
+    std::string out;
+    if (record.build != nullptr) {
+        out += input_lines(*record.build);
+    }
+    const Frame& frame = record.model->frame;
+    out += line("Frame", fmt::format("{}, unit {}", frame.crs_name.empty() ? "local" : frame.crs_name, frame.unit));
+    if (record.build != nullptr) {
+        out += build_lines(*record.build, *record.model);
+    }
+    for (const auto& output : record.outputs) {
+        out += line("Wrote", fmt::format("{} ({})", output.path, byte_size(output.bytes)));
+    }
+    return out + line("Time", fmt::format("{:.2f} s", record.total_seconds));
+}
+
+}  // namespace terratet::tools

@@ -79,8 +79,20 @@ CellQuality cell_quality(const CellPoints& p) {
     return q;
 }
 
-double smallest_dihedral_deg(const CellPoints& points) {
-    return std::acos(dihedral_cosines(face_vectors(points)).first) * degrees;
+double sharpest_dihedral_cosine(const CellPoints& points) {
+    const auto faces = face_vectors(points);
+    std::array<double, 4> inverse{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        inverse[i] = 1 / length(faces[i]);
+    }
+    double largest = -1;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const double cosine = -dot(faces[i], faces[j]) * inverse[i] * inverse[j];
+            largest = cosine <= largest ? largest : cosine;  // NaN, from a face without area, counts as sharpest
+        }
+    }
+    return largest <= 1 ? largest : 1;
 }
 
 Circumsphere circumsphere(const CellPoints& p) {

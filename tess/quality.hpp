@@ -27,8 +27,8 @@ using CellPoints = std::array<Vec3, 4>;
 /// All measures; independent of the orientation, though its last bits depend on the order of the points.
 CellQuality cell_quality(const CellPoints& points);
 
-/// The smallest dihedral angle alone, in degrees.
-double smallest_dihedral_deg(const CellPoints& points);
+/// Cosine of the smallest dihedral angle alone: no arc cosine, for comparisons in inner loops. 1 without volume.
+double sharpest_dihedral_cosine(const CellPoints& points);
 
 struct Circumsphere {
     Vec3 center;             ///< not finite for a cell without volume

@@ -20,7 +20,7 @@ using delaunay::Facet;
 
 /// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do well, and
 /// trying seven more points for each would more than double the time.
-constexpr double poor_star_deg = 12;
+const double poor_star_cosine = std::cos(12 * std::numbers::pi / 180);
 constexpr int candidate_count = 7;
 constexpr double candidate_radius = 0.3;  ///< of the circumradius
 
@@ -80,6 +80,7 @@ class Refiner {
           options_(options),
           values_at_once_(criteria.has_variation()),
           property_count_(properties.size()),
+          has_faults_(!faults.empty()),
           first_new_(kernel_.vertices.size()) {
         report_.bound = packing_bound(domain.hull, criteria.l_min);
     }
@@ -131,7 +132,7 @@ class Refiner {
         bad_.clear();
         for (const Cell cell : cells) {
             const JudgedCell judged_cell = judged(cell);
-            if (gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
+            if (has_faults_ && gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
                 continue;
             }
             if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
@@ -188,28 +189,29 @@ class Refiner {
         return true;
     }
 
-    /// Rule 4: where the circumcentre would make a poor star, the best of it and seven points around it.
+    /// Rule 4: where the circumcentre would make a poor star, the first of seven points around it that makes a fair one, or
+    /// the best of all eight.
     void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
-        double best = star_quality(zone_);
-        if (best >= poor_star_deg) {
+        double best = sharpest_of_star(zone_, 1);
+        if (best <= poor_star_cosine) {
             return;
         }
         BallPoints ball(cell.vertices);
-        for (int i = 0; i < candidate_count; ++i) {
+        for (int i = 0; i < candidate_count && best > poor_star_cosine; ++i) {
             const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
             if (!rule_.allows(point) || !find_zone(point, start, candidate_)) {
                 continue;
             }
-            if (const double quality = star_quality(candidate_); quality > best) {
-                best = quality;
+            if (const double sharpest = sharpest_of_star(candidate_, best); sharpest < best) {
+                best = sharpest;
                 std::swap(zone_, candidate_);
             }
         }
     }
 
-    /// Smallest dihedral angle of the cells an insertion would make, in degrees.
-    double star_quality(const Zone& zone) const {
-        double smallest = 180;
+    /// Cosine of the smallest dihedral angle of the cells an insertion would make; gives up once it exceeds `bound`.
+    double sharpest_of_star(const Zone& zone, double bound) const {
+        double sharpest = -1;
         for (const Facet& facet : zone.boundary) {
             CellPoints points{zone.point, {}, {}, {}};
             bool finite = true;
@@ -219,10 +221,13 @@ class Refiner {
                 points[static_cast<std::size_t>(k)] = delaunay::from_cgal(vertex->point());
             }
             if (finite) {
-                smallest = std::min(smallest, smallest_dihedral_deg(points));
+                sharpest = std::max(sharpest, sharpest_dihedral_cosine(points));
+                if (sharpest > bound) {
+                    break;
+                }
             }
         }
-        return smallest;
+        return sharpest;
     }
 
     void insert(const Zone& zone) {
@@ -290,6 +295,7 @@ class Refiner {
     const RefineOptions& options_;
     bool values_at_once_;
     std::size_t property_count_;
+    bool has_faults_;
     std::size_t first_new_;
     CellQueue queue_;
     RefineReport report_;

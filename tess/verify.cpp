@@ -1,2 +1,323 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tess/cells.hpp"
+#include "tess/quality.hpp"
+
+namespace terratet {
+
+namespace {
+
+constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+std::string show(const Model& model, const Vec3& local) {
+    const Vec3 p = model.frame.to_world(local);
+    std::ostringstream text;
+    text.precision(12);
+    text << "(" << p.x << ", " << p.y << ", " << p.z << ")";
+    return text.str();
+}
+
+/// Collects offenders: the first few by name, all by number.
+class Offenders {
+  public:
+    void add(const std::string& what) {
+        if (++count_ <= 3) {
+            list_ += (list_.empty() ? "" : "; ") + what;
+        }
+    }
+    [[nodiscard]] Verdict verdict(std::string guarantee, std::string statement, const std::string& figures) const {
+        const std::string detail = count_ == 0 ? figures : std::to_string(count_) + " offenders: " + list_;
+        return {std::move(guarantee), count_ == 0, std::move(statement), detail};
+    }
+
+  private:
+    std::size_t count_ = 0;
+    std::string list_;
+};
+
+/// Samples' places sorted by x, for distance questions by sweeping.
+class Sweep {
+  public:
+    explicit Sweep(std::vector<Vec3> points) : points_(std::move(points)) { std::ranges::sort(points_); }
+
+    /// Number of points nearer to p than r, p itself included when it is one of them.
+    [[nodiscard]] std::size_t within(const Vec3& p, double r) const {
+        std::size_t count = 0;
+        const Vec3 from{p.x - r, -max_coordinate * 10, -max_coordinate * 10};
+        for (auto q = std::ranges::lower_bound(points_, from); q != points_.end() && q->x <= p.x + r; ++q) {
+            count += squared_distance(*q, p) < r * r ? 1 : 0;
+        }
+        return count;
+    }
+
+  private:
+    std::vector<Vec3> points_;
+};
+
+double distance_to(const Surface& surface, const Vec3& p) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : surface.triangles) {
+        const Vec3 q = closest_point_on_triangle(p, surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
+        nearest = std::min(nearest, squared_distance(p, q));
+    }
+    return std::sqrt(nearest);
+}
+
+bool in_protection_zone(const Model& model, const Vec3& p) {
+    return std::ranges::any_of(model.faults, [&](const Fault& fault) {
+        return std::min(distance_to(fault.sheet, p), distance_to(fault.margin, p)) < fault.protection_radius * (1 + 1e-9);
+    });
+}
+
+class Verifier {
+  public:
+    explicit Verifier(const Model& model)
+        : model_(model), tessellation_(tessellate(model)), mesh_(tessellation_.mesh()), table_(describe_cells(model, mesh_)) {
+        for (const Vertex& vertex : model.vertices) {
+            if (vertex.role == Role::sample) {
+                kept_.push_back(vertex.position);
+            }
+        }
+    }
+
+    std::vector<Verdict> run(const Progress& progress) {
+        std::vector<Verdict> verdicts;
+        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::v1, &Verifier::f1, &Verifier::r1,    &Verifier::r2,
+                            &Verifier::r3, &Verifier::r4, &Verifier::r5, &Verifier::r7, &Verifier::volume};
+        for (const auto step : steps) {
+            report_progress(progress, "check", static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
+            verdicts.push_back((this->*step)());
+        }
+        return verdicts;
+    }
+
+  private:
+    [[nodiscard]] double l_min() const { return model_.criteria.l_min; }
+    [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.points[v]; }
+    [[nodiscard]] CellPoints corners(std::size_t c) const {
+        const auto& v = mesh_.cells[c];
+        return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+    }
+
+    Verdict d1() {
+        Offenders offenders;
+        const Sweep kept(kept_);
+        for (const Vec3& p : kept_) {
+            if (kept.within(p, l_min()) > 1) {
+                offenders.add("sample at " + show(model_, p));
+            }
+        }
+        return offenders.verdict("D1", "no two kept samples are closer than lmin",
+                                 std::to_string(kept_.size()) + " kept samples");
+    }
+
+    Verdict d2() {
+        Offenders offenders;
+        const Sweep kept(kept_);
+        std::size_t dropped = 0;
+        for (const Vec3& p : model_.samples.positions) {
+            if (!model_.domain.extent.contains(p) || kept.within(p, 1e-300) > 0) {
+                continue;
+            }
+            ++dropped;
+            if (kept.within(p, l_min()) == 0 && !in_protection_zone(model_, p)) {
+                offenders.add("sample at " + show(model_, p));
+            }
+        }
+        return offenders.verdict("D2", "every dropped sample has a kept one within lmin or lies by a fault",
+                                 std::to_string(dropped) + " dropped samples");
+    }
+
+    Verdict v1() {
+        Offenders offenders;
+        std::size_t values = 0;
+        for (std::size_t i = 0; i < model_.vertices.size(); ++i) {
+            const Vertex& vertex = model_.vertices[i];
+            if (vertex.role != Role::sample) {
+                continue;
+            }
+            const auto owner = static_cast<std::size_t>(vertex.owner);
+            for (std::size_t p = 0; p < model_.properties.size(); ++p) {
+                const double measured = model_.samples.values[p][owner];
+                values += std::isnan(measured) ? 0 : 1;
+                if (!std::isnan(measured) && measured != model_.vertex_values.values[p][i]) {
+                    offenders.add(model_.properties[p].name + " at " + show(model_, vertex.position));
+                }
+            }
+        }
+        return offenders.verdict("V1", "kept samples carry their measured values", std::to_string(values) + " values");
+    }
+
+    Verdict f1() {
+        Offenders offenders;
+        for (const CrossingEdge& edge : fault_crossing_edges(model_, mesh_)) {
+            offenders.add("edge " + show(model_, point(edge.a)) + " to " + show(model_, point(edge.b)) + " crosses '" +
+                          model_.faults[static_cast<std::size_t>(edge.fault)].name + "'");
+        }
+        return offenders.verdict("F1", "in the extent no edge crosses a fault but between its seeds",
+                                 std::to_string(model_.faults.size()) + " faults");
+    }
+
+    Verdict r1() {
+        const auto inserted = std::ranges::count(model_.vertices, Role::inserted, &Vertex::role);
+        const double bound = packing_bound(model_.domain.hull, l_min());
+        Offenders offenders;
+        if (static_cast<double>(inserted) > bound) {
+            offenders.add(std::to_string(inserted) + " inserted");
+        }
+        std::ostringstream figures;
+        figures << inserted << " inserted, bound " << static_cast<std::uint64_t>(bound);
+        return offenders.verdict("R1", "inserted vertices stay within the packing bound", figures.str());
+    }
+
+    /// The insertion criteria as the user stated them, from the cell's own measures.
+    [[nodiscard]] bool meets_criteria(std::size_t c) const {
+        constexpr double slack = 1 + 1e-9;
+        const Criteria& limits = model_.criteria;
+        const CellQuality q = cell_quality(corners(c));
+        const bool shape = (limits.radius_edge == 0 || q.radius_edge <= limits.radius_edge * slack) &&
+                           (limits.aspect == 0 || q.aspect <= limits.aspect * slack) &&
+                           (limits.v_max == 0 || q.volume <= limits.v_max * slack) &&
+                           q.longest_edge <= limits.l_max * slack;
+        return shape && meets_variation(c);
+    }
+
+    [[nodiscard]] bool meets_variation(std::size_t c) const {
+        for (std::size_t p = 0; p < model_.criteria.variation.size(); ++p) {
+            const double limit = model_.criteria.variation[p].df_max;
+            const auto& column = model_.vertex_values.values[p];
+            for (const auto& [i, j] : cell_edges) {
+                const auto a = mesh_.cells[c][i];
+                const auto b = mesh_.cells[c][j];
+                if (limit > 0 && scaled_difference(model_.properties[p], column[a], column[b]) > limit * (1 + 1e-9) &&
+                    !proximity_.crosses_any(point(a), point(b))) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    Verdict r2() {
+        Offenders offenders;
+        std::size_t excused = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+            if (table_.fault[c] >= 0) {
+                continue;
+            }
+            const bool good = meets_criteria(c);
+            excused += good ? 0 : 1;
+            const bool wrong_reason = table_.reason[c] == Reason::too_close &&
+                                      cell_quality(corners(c)).circumradius > l_min() * (1 + 1e-9) + 1e-6;
+            if ((!good && table_.reason[c] == Reason::none) || wrong_reason) {
+                offenders.add("cell at " + show(model_, corners(c)[0]));
+            }
+        }
+        return offenders.verdict("R2", "each cell meets the criteria or carries a reason",
+                                 std::to_string(excused) + " of " + std::to_string(mesh_.cells.size()) +
+                                     " cells carry a reason");
+    }
+
+    /// A vertex' nearest neighbour is one of its Delaunay neighbours (R5), so edges tell all.
+    Verdict r3() {
+        Offenders offenders;
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const auto& cell : mesh_.cells) {
+            for (const auto& [i, j] : cell_edges) {
+                const bool inserted = model_.vertices[cell[i]].role == Role::inserted ||
+                                      model_.vertices[cell[j]].role == Role::inserted;
+                const double d = inserted ? squared_distance(point(cell[i]), point(cell[j]))
+                                          : std::numeric_limits<double>::infinity();
+                shortest = std::min(shortest, d);
+                if (d < l_min() * l_min()) {
+                    offenders.add("edge at " + show(model_, point(cell[i])));
+                }
+            }
+        }
+        std::ostringstream figures;
+        figures << "shortest such edge " << std::sqrt(shortest) << ", lmin " << l_min();
+        return offenders.verdict("R3", "no inserted vertex is nearer than lmin to another", figures.str());
+    }
+
+    Verdict r4() {
+        Offenders offenders;
+        const bool promised = model_.criteria.l_max >= 4 * l_min();
+        double longest = 0;
+        for (std::size_t c = 0; promised && c < mesh_.cells.size(); ++c) {
+            const Circumsphere sphere = circumsphere(corners(c));
+            const CellQuality q = cell_quality(corners(c));
+            if (table_.fault[c] >= 0 || table_.reason[c] == Reason::smooth ||
+                !model_.domain.extent.contains(sphere.center) || proximity_.protecting_fault(sphere.center) >= 0) {
+                continue;
+            }
+            longest = std::max(longest, q.longest_edge);
+            if (q.longest_edge > model_.criteria.l_max * (1 + 1e-9)) {
+                offenders.add("edge of " + std::to_string(q.longest_edge) + " at " + show(model_, corners(c)[0]));
+            }
+        }
+        std::ostringstream figures;
+        figures << "longest edge " << longest << ", lmax " << model_.criteria.l_max;
+        return offenders.verdict("R4", "no edge above lmax away from faults and box",
+                                 promised ? figures.str() : "not promised: lmax is below 4 lmin");
+    }
+
+    Verdict r5() {
+        Offenders offenders;
+        if (!tessellation_.is_delaunay()) {
+            offenders.add("an empty-sphere test fails");
+        }
+        return offenders.verdict("R5", "the tessellation is Delaunay", std::to_string(mesh_.cells.size()) + " cells");
+    }
+
+    Verdict r7() {
+        Offenders offenders;
+        Tessellation again = tessellate(model_);
+        VertexValues values = model_.vertex_values;
+        const ValueSource none = [&](std::span<const ValueQuery> queries) {
+            return ValueBatch{std::vector(model_.properties.size(), std::vector<double>(queries.size(), missing)),
+                              std::vector<double>(queries.size(), 0)};
+        };
+        const RefineReport report = refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria,
+                                           model_.properties, none);
+        if (report.inserted > 0) {
+            offenders.add(std::to_string(report.inserted) + " vertices would be inserted, the first at " +
+                          show(model_, again.vertices()[model_.vertices.size()].position));
+        }
+        return offenders.verdict("R7", "refining again changes nothing", "nothing inserted");
+    }
+
+    Verdict volume() {
+        Offenders offenders;
+        long double total = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+            total += static_cast<long double>(cell_quality(corners(c)).volume);
+        }
+        const double hull = model_.domain.hull.volume();
+        const double error = std::abs(static_cast<double>(total) - hull) / hull;
+        std::ostringstream figures;
+        figures << "relative difference " << error;
+        if (!(error <= 1e-9)) {
+            offenders.add(figures.str());
+        }
+        return offenders.verdict("volume", "the cells fill the hull box", figures.str());
+    }
+
+    const Model& model_;
+    FaultProximity proximity_{model_.faults};
+    Tessellation tessellation_;
+    TetMesh mesh_;
+    CellTable table_;
+    std::vector<Vec3> kept_;
+};
+
+}  // namespace
+
+std::vector<Verdict> verify(const Model& model, const Progress& progress) { return Verifier(model).run(progress); }
+
+}  // namespace terratet

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// A read-only copy of the Delaunay tessellation of sites, made for walking: one cache line a cell, cells and sites in
+/// Morton order, circumspheres stored. All answers are exact: doubles decide where their error bound allows it, CGAL's
+/// exact predicates elsewhere.
+///
+/// Eight ghosts, the corners of a cube far outside, belong to it. So it has cells for any sites, be it one, and every
+/// place within reach (strictly inside the cube) lies in a finite cell and has a bounded Voronoi cell.
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+/// Facet k of a cell lies opposite vertex k; seen from inside, (a, b, c) = facet_corners[k] have det(a, b, c) > 0.
+inline constexpr int facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+class CompactDelaunay {
+  public:
+    struct alignas(64) Cell {
+        std::array<std::int32_t, 4> vertex;     ///< positively oriented
+        std::array<std::int32_t, 4> neighbour;  ///< opposite each vertex; −1 beyond the cube
+        Vec3 center;                            ///< of the circumsphere, to relative_center_error of its radius
+        double squared_radius;                  ///< from that centre to vertex 0; NaN where the error is larger
+    };
+    static_assert(sizeof(Cell) == 64);
+
+    static constexpr std::int32_t ghost_count = 8;
+    static constexpr double relative_center_error = 1e-11;
+
+    struct Location {
+        std::int32_t cell;
+        bool strictly_inside;  ///< not on one of its facets, so there is no other cell to choose
+    };
+
+    /// About 5 µs a site. \pre sites are distinct, acceptable, in Morton order (so that cells come out the same for any
+    /// order of rows); fewer than 2^31 cells, which is some 300 million sites.
+    explicit CompactDelaunay(std::span<const Vec3> sites);
+
+    /// The sites, then the ghosts.
+    [[nodiscard]] std::span<const Vec3> points() const { return points_; }
+    [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
+    [[nodiscard]] std::int32_t site_count() const { return static_cast<std::int32_t>(points_.size()) - ghost_count; }
+    [[nodiscard]] bool is_ghost(std::int32_t vertex) const { return vertex >= site_count(); }
+
+    [[nodiscard]] bool within_reach(const Vec3& q) const {
+        return q.x > cube_.lo.x && q.y > cube_.lo.y && q.z > cube_.lo.z && q.x < cube_.hi.x && q.y < cube_.hi.y &&
+               q.z < cube_.hi.z;
+    }
+
+    /// A cell near q to start a walk from. O(1).
+    [[nodiscard]] std::int32_t start_near(const Vec3& q) const { return starts_[bin(q)]; }
+
+    /// The cell that contains q, by a visibility walk, which always ends in a Delaunay tessellation (Devillers, Pion
+    /// and Teillaud 2002). \pre within_reach(q)
+    [[nodiscard]] Location locate(const Vec3& q, std::int32_t start) const;
+
+    /// Is q strictly inside the cell's circumsphere?
+    [[nodiscard]] bool in_conflict(const Cell& cell, const Vec3& q) const {
+        const double power = squared_distance(q, cell.center) - cell.squared_radius;
+        if (std::abs(power) > power_error * cell.squared_radius) [[likely]] {
+            return power < 0;
+        }
+        return in_conflict_exact(cell, q);
+    }
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+  private:
+    // A centre off by δ, with the radius taken from it to a vertex p, shifts the power of q by 2 δ·(p − q): within
+    // 2δ(d + r), which 8δ·r bounds wherever the sign is in doubt. The rest is rounding.
+    static constexpr double power_error = 10 * relative_center_error;
+
+    [[nodiscard]] std::size_t bin(const Vec3& q) const;
+    [[nodiscard]] bool in_conflict_exact(const Cell& cell, const Vec3& q) const;
+    void copy_tessellation();
+    void fill_starts();
+
+    Box3 cube_;
+    std::vector<Vec3> points_;
+    std::vector<Cell> cells_;
+
+    Box3 bins_box_;
+    std::array<std::int32_t, 3> bins_{};
+    std::vector<std::int32_t> starts_;  ///< for each bin of a regular grid, the cell at its centre
+};
+
+}  // namespace terratet

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/exact_volumes.hpp"
+
+#include <CGAL/Exact_rational.h>
+
+#include <numeric>
+
+#include "interp/stolen_volumes.hpp"
+
+namespace terratet {
+namespace {
+
+using Number = CGAL::Exact_rational;
+
+struct ExactVector {
+    Number x, y, z;
+};
+
+ExactVector operator+(const ExactVector& a, const ExactVector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+ExactVector operator-(const ExactVector& a, const ExactVector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+ExactVector operator*(const Number& s, const ExactVector& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+Number dot(const ExactVector& a, const ExactVector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+ExactVector exact(const Vec3& p) {
+    return {Number(p.x), Number(p.y), Number(p.z)};
+}
+
+}  // namespace
+
+void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, std::vector<double>& shares) {
+    std::vector<ExactVector> points;
+    for (const std::int32_t v : cavity.vertices) {
+        points.push_back(exact(mesh.points()[static_cast<std::size_t>(v)]) - exact(q));
+    }
+    std::vector<ExactVector> centers;
+    for (const auto& cell : cavity.cells) {
+        const auto p = [&](std::size_t k) { return points[static_cast<std::size_t>(cell.vertex[k])]; };
+        const ExactVector a = p(1) - p(0), b = p(2) - p(0), c = p(3) - p(0);
+        centers.push_back(p(0) + circumcenter_with_origin(a, b, c, dot(a, a), dot(b, b), dot(c, c)));
+    }
+    std::vector<Number> squared;
+    std::vector<Number> volumes;
+    stolen_volumes<ExactVector, Number>(cavity.cells, points, centers, squared, volumes);
+
+    const Number total = std::accumulate(volumes.begin(), volumes.end(), Number(0));
+    shares.resize(volumes.size());
+    for (std::size_t v = 0; v < volumes.size(); ++v) {
+        shares[v] = CGAL::to_double(Number(volumes[v] / total));
+    }
+}
+
+}  // namespace terratet

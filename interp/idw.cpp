@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/idw.hpp"
+
+#include <cmath>
+
+#include "interp/query_order.hpp"
+
+namespace terratet {
+namespace {
+
+/// \param near  not empty, nearest first. Distances are taken relative to the nearest: no power overflows.
+void weigh(const std::vector<NearSite>& near, double power, std::vector<SiteWeight>& terms) {
+    const double nearest = near.front().squared_distance;
+    if (nearest == 0) {
+        terms = {{near.front().site, 1.0}};
+        return;
+    }
+    double sum = 0;
+    for (const auto& [squared_distance, site] : near) {
+        const double weight = std::pow(nearest / squared_distance, power / 2);
+        terms.push_back({site, weight});
+        sum += weight;
+    }
+    for (auto& term : terms) {
+        term.weight /= sum;
+    }
+}
+
+}  // namespace
+
+InverseDistance::InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options)
+    : sites_(std::move(sites)), index_(sites_, faults), options_(options) {}
+
+void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
+    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+        std::vector<NearSite> near;
+        for (const std::uint32_t i : run) {
+            index_.nearest(queries[i], options_.max_points, near, options_.radius);
+            out[i].terms.clear();
+            out[i].extrapolation = 0;
+            out[i].fallback = false;
+            if (!near.empty()) {
+                weigh(near, options_.power, out[i].terms);
+            }
+        }
+    });
+}
+
+}  // namespace terratet

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/nearest.hpp"
+
+#include "interp/query_order.hpp"
+
+namespace terratet {
+
+Nearest::Nearest(std::vector<Vec3> sites, const FaultProximity* faults)
+    : sites_(std::move(sites)), index_(sites_, faults) {}
+
+void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
+    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+        std::vector<NearSite> near;
+        for (const std::uint32_t i : run) {
+            index_.nearest(queries[i], 1, near);
+            out[i] = {};
+            if (!near.empty()) {
+                out[i].terms = {{near.front().site, 1.0}};
+            }
+        }
+    });
+}
+
+}  // namespace terratet

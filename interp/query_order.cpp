@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/query_order.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <array>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "interp/morton.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr std::size_t small_batch = 64;  // below it a task costs more than it saves
+constexpr std::size_t run_length = 128;
+
+}  // namespace
+
+void in_spatial_order(std::span<const ValueQuery> queries,
+                      const std::function<void(std::span<const std::uint32_t>)>& work) {
+    if (queries.size() < small_batch) {
+        std::array<std::uint32_t, small_batch> as_given;
+        std::iota(as_given.begin(), as_given.end(), 0u);
+        work(std::span(as_given).first(queries.size()));
+        return;
+    }
+    Box3 box;
+    for (const auto& query : queries) {
+        box.extend(query.position);
+    }
+    const MortonCode code(box);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(queries.size());
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+        keys[i] = {code(queries[i].position), i};
+    }
+    tbb::parallel_sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        order[i] = keys[i].second;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), run_length),
+                      [&](const auto& range) { work(std::span(order).subspan(range.begin(), range.size())); });
+}
+
+}  // namespace terratet

@@ -1,2 +1,245 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "io/gdal_dataset.hpp"
+#include "io/read_surfaces.hpp"
+#include "io/rejections.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+namespace {
+
+using Rings = std::vector<std::vector<Vec3>>;
+
+/// A surface being put together from polygons, corners at equal positions joined.
+class SurfaceBuilder {
+  public:
+    /// Returns why the polygon cannot be used; empty when it was.
+    std::string add(const Rings& rings);
+    /// In canonical order, see the header.
+    Surface finish(std::string name) const;
+    [[nodiscard]] bool empty() const { return triangles_.empty(); }
+
+  private:
+    std::uint32_t index(const Vec3& p) {
+        return index_.emplace(p, static_cast<std::uint32_t>(index_.size())).first->second;
+    }
+    std::map<Vec3, std::uint32_t> index_;
+    std::vector<Triangle> triangles_;
+};
+
+std::string SurfaceBuilder::add(const Rings& rings) {
+    std::vector<Vec3> corners;
+    for (const auto& ring : rings) {
+        if (ring.size() < 3) {
+            return "a polygon with fewer than three corners";
+        }
+        corners.insert(corners.end(), ring.begin(), ring.end());
+    }
+    if (!std::all_of(corners.begin(), corners.end(), is_acceptable)) {
+        return "coordinates must be numbers within 1e9";
+    }
+    const bool triangle = corners.size() == 3;  // kept even without area, as in other formats: repair sees to it
+    const std::vector<Triangle> triangles = triangle ? std::vector<Triangle>{{0, 1, 2}} : triangulate_polygon(rings);
+    if (triangles.empty()) {
+        return "a polygon of " + std::to_string(corners.size()) + " corners that crosses itself or has no area";
+    }
+    for (const Triangle& t : triangles) {
+        const Triangle joined{index(corners[t[0]]), index(corners[t[1]]), index(corners[t[2]])};
+        if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) {
+            return "a triangle with two corners at one place";
+        }
+        triangles_.push_back(joined);
+    }
+    return {};
+}
+
+Surface SurfaceBuilder::finish(std::string name) const {
+    Surface surface;
+    surface.name = std::move(name);
+    std::vector<std::uint32_t> rank(index_.size());
+    for (const auto& [position, first_index] : index_) {  // ascending positions
+        rank[first_index] = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.push_back(position);
+    }
+    for (const Triangle& t : triangles_) {
+        Triangle sorted{rank[t[0]], rank[t[1]], rank[t[2]]};
+        std::rotate(sorted.begin(), std::min_element(sorted.begin(), sorted.end()), sorted.end());
+        surface.triangles.push_back(sorted);
+    }
+    std::sort(surface.triangles.begin(), surface.triangles.end());
+    return surface;
+}
+
+/// Open, and without consecutive repetitions.
+std::vector<Vec3> ring_of(const OGRLinearRing& ring) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < ring.getNumPoints(); ++i) {
+        const Vec3 p{ring.getX(i), ring.getY(i), ring.getZ(i)};
+        if (points.empty() || points.back() != p) {
+            points.push_back(p);
+        }
+    }
+    if (points.size() > 1 && points.front() == points.back()) {
+        points.pop_back();
+    }
+    return points;
+}
+
+Rings rings_of(const OGRPolygon& polygon) {
+    Rings rings;
+    for (const OGRLinearRing* ring : polygon) {
+        rings.push_back(ring_of(*ring));
+    }
+    return rings;
+}
+
+/// Calls `use` with every polygon in a geometry; `refuse` with the kind of what holds none. GDAL bounds the nesting.
+template <typename Use, typename Refuse>
+void for_each_polygon(const OGRGeometry& geometry, const Use& use, const Refuse& refuse) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon || type == wkbTriangle) {
+        use(*geometry.toPolygon());
+    } else if (type == wkbTIN || type == wkbPolyhedralSurface) {
+        for (const OGRPolygon* patch : *geometry.toPolyhedralSurface()) {
+            use(*patch);
+        }
+    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+        for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
+            for_each_polygon(*part, use, refuse);
+        }
+    } else {
+        refuse(OGRGeometryTypeToName(type));
+    }
+}
+
+/// The column that names surfaces: by the usual names, or the layer of a drawing that was converted face by face.
+int name_field(OGRFeatureDefn& definition, const Source& source, const ColumnNames& columns) {
+    Table header;
+    header.file = source.describe();
+    for (int i = 0; i < definition.GetFieldCount(); ++i) {
+        header.columns.push_back(utf8(definition.GetFieldDefn(i)->GetNameRef()));
+    }
+    const int usual = find_optional_column(header, Meaning::name, columns);
+    const int layer = definition.GetFieldIndex("layer");
+    return usual < 0 && layer < 0 ? find_column(header, Meaning::name, columns) : usual < 0 ? layer : usual;
+}
+
+Crs crs_of(const OGRLayer& layer) {
+    const OGRSpatialReference* const reference = const_cast<OGRLayer&>(layer).GetSpatialRef();
+    if (!reference) {
+        return {};
+    }
+    char* wkt = nullptr;
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    const bool exported = reference->exportToWkt(&wkt, options) == OGRERR_NONE;
+    Crs crs = exported ? crs_from_wkt(wkt) : Crs{};
+    CPLFree(wkt);
+    return crs;
+}
+
+/// One feature's polygons, by name and record, before it is known how features join.
+struct Feature {
+    std::string name;
+    std::int64_t record = 0;
+    std::vector<Rings> polygons;
+};
+
+std::vector<Feature> read_features(OGRLayer& layer, int name_index, Rejections& rejections, bool& any_flat) {
+    std::vector<Feature> features;
+    layer.ResetReading();
+    while (const OGRFeatureUniquePtr record{layer.GetNextFeature()}) {
+        Feature feature;
+        feature.record = record->GetFID();
+        const auto reject = [&](const std::string& reason) { rejections.add(feature.record, [&] { return reason; }); };
+        const OGRGeometry* const geometry = record->GetGeometryRef();
+        if (!geometry || geometry->IsEmpty()) {
+            reject("no geometry");
+            continue;
+        }
+        if (!geometry->Is3D()) {
+            any_flat = true;
+            reject("a " + std::string(OGRGeometryTypeToName(wkbFlatten(geometry->getGeometryType()))) +
+                   " without z coordinates is no surface in space");
+            continue;
+        }
+        if (name_index >= 0 && record->IsFieldSetAndNotNull(name_index)) {
+            feature.name = utf8(record->GetFieldAsString(name_index));
+        }
+        for_each_polygon(
+            *geometry, [&](const OGRPolygon& polygon) { feature.polygons.push_back(rings_of(polygon)); },
+            [&](const char* type) { reject("a " + std::string(type) + " is no surface; polygons are needed"); });
+        if (!feature.polygons.empty()) {
+            features.push_back(std::move(feature));
+        }
+    }
+    return features;
+}
+
+/// Names features without one: after the layer when it is one surface face by face or has one feature, else numbered.
+void name_the_nameless(std::vector<Feature>& features, const std::string& layer) {
+    const auto nameless = [](const Feature& f) { return f.name.empty(); };
+    const bool faces =
+        std::all_of(features.begin(), features.end(), [&](const Feature& f) { return f.polygons.size() == 1; });
+    const bool whole = faces || std::count_if(features.begin(), features.end(), nameless) == 1;
+    for (Feature& feature : features) {
+        if (nameless(feature)) {
+            feature.name = whole ? layer : layer + " " + std::to_string(feature.record);
+        }
+    }
+}
+
+}  // namespace
+
+RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
+                              Diagnostics& diagnostics) {
+    const GdalScope scope;
+    const Dataset dataset = open_vector(source);
+    ResultSet result_set;
+    OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
+
+    RawSurfaces result;
+    result.crs = crs_of(layer);
+    bool any_flat = false;
+    Rejections rejections(diagnostics, source.describe());
+    std::vector<Feature> features =
+        read_features(layer, name_field(*layer.GetLayerDefn(), source, columns), rejections, any_flat);
+    if (scope.failed()) {
+        rejections.add(0, [&] { return "reading was not complete: " + scope.failure(); });
+    }
+    name_the_nameless(features, source.layer.empty() ? utf8(layer.GetName()) : source.layer);
+
+    std::map<std::string, SurfaceBuilder> builders;
+    for (const Feature& feature : features) {
+        for (const Rings& rings : feature.polygons) {
+            const std::string reason = builders[feature.name].add(rings);
+            if (!reason.empty()) {
+                rejections.add(feature.record, [&] { return reason; });
+            }
+        }
+    }
+    for (const auto& [name, builder] : builders) {
+        if (!builder.empty()) {
+            Surface surface = builder.finish(name);
+            surface.kind = kind;
+            surface.file = source.path;
+            result.surfaces.push_back(std::move(surface));
+        }
+    }
+    if (result.surfaces.empty()) {
+        throw InputError(
+            source.describe() +
+            (any_flat ? ": its geometries have no z; surfaces in space are needed (TIN Z, PolyhedralSurface Z, "
+                        "MultiPolygon Z, Polygon Z)"
+                      : ": no polygon in it makes a surface; points, TIN Z, PolyhedralSurface Z, MultiPolygon Z "
+                        "or Polygon Z are needed"));
+    }
+    return result;
+}
+
+}  // namespace terratet

@@ -11,10 +11,10 @@
 /// joined | | points x, y, z and fault name | read_fault_points | any table; triangulated in the best-fit plane |
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/crs.hpp"
+#include "io/read_table.hpp"
 #include "io/source.hpp"
 #include "tess/diagnostics.hpp"
 #include "tess/surface.hpp"
@@ -26,9 +26,6 @@ struct RawSurfaces {
     std::vector<Surface> surfaces;
     Crs crs;
 };
-
-/// Column names given for meanings (`--columns name=FLT`).
-using ColumnNames = std::vector<std::pair<std::string, std::string>>;
 
 /// Dispatches. Triangles with an index out of range, too few corners or unacceptable coordinates are rejected into
 /// `diagnostics` with their line; throws InputError when nothing usable is left or the file is not of a known kind.
@@ -43,12 +40,17 @@ bool is_gocad(const std::string& path);
 /// size.
 RawSurfaces read_tsurf(const Source& source, SurfaceKind kind, Diagnostics& diagnostics);
 
-/// One surface for all features of a name. Without a name column: one a feature, or one a layer when its features are
-/// single polygons. Corners at bit-identical positions become one vertex, in order of first appearance.
+/// One surface for all features of a name (a column such as NAME, FAULT, SURFACE, or LAYER as in converted drawings).
+/// Without such a column: one a feature, or one a layer when its features are single polygons. Corners at equal
+/// positions become one vertex; vertices are sorted by coordinates, triangles start with their smallest vertex and are
+/// sorted, so that the order of features does not matter. Polygons of more than three corners are triangulated. Throws
+/// InputError: no z, no polygons.
 RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                               Diagnostics& diagnostics);
 
-/// One surface for all points of a name, or for the whole file without a name column.
+/// One surface for all points of a name, or for the whole file without a name column, sorted by name; triangulated in
+/// their best-fit plane, in metres also for longitude and latitude (said by the file or by `source.srs`). Points
+/// without three coordinates are rejected.
 RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                               Diagnostics& diagnostics);
 

@@ -91,15 +91,14 @@ TileRange tiles_of(const Job& job, std::size_t cell) {
     const auto& c = job.field.mesh->cells[cell];
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
-        const auto [lo, hi] = std::minmax(
-            {job.points[c[0]][axis], job.points[c[1]][axis], job.points[c[2]][axis], job.points[c[3]][axis]});
-        const double first = std::ceil(std::max(lo - scan_tolerance, 0.0));
-        const double last = std::floor(std::min(hi + scan_tolerance, static_cast<double>(job.lattice.size[k] - 1)));
-        if (first > last) {
+        int first = 0;
+        int last = 0;
+        if (!detail::voxels_between(job.points[c[0]][axis], job.points[c[1]][axis], job.points[c[2]][axis],
+                                    job.points[c[3]][axis], static_cast<int>(job.lattice.size[k]), first, last)) {
             return {};
         }
-        range.lo[k] = static_cast<std::int32_t>(first / Tile::edge);
-        range.hi[k] = static_cast<std::int32_t>(last / Tile::edge);
+        range.lo[k] = first / Tile::edge;
+        range.hi[k] = last / Tile::edge;
     }
     return range;
 }

@@ -33,91 +33,123 @@ struct ScanCell {
     std::array<Vec3, 4> normal;  ///< of the facet opposite corner k, from its corners in order
     double determinant = 0;      ///< six times the signed volume
     std::array<int, 3> lo{};     ///< voxels within its bounding box and the block
-    std::array<int, 3> hi{};
+    std::array<int, 3> hi{-1, -1, -1};
 
     [[nodiscard]] bool empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
 };
 
 namespace detail {
 
-/// Bounds on z along a row (x,y): z ≥ or ≤ a·x + b·y + c.
+/// A bound linear in the coordinates before it: on z at (x,y), a·x + b·y + c; on y at x, a·x + c.
 struct Slope {
     double a, b, c;
 };
+
+/// Up to six bounds from one side.
+struct Slopes {
+    std::array<Slope, 6> slope;
+    std::size_t count = 0;
+    void add(const Slope& s) { slope[count++] = s; }
+};
+
+/// ⌈v⌉ and ⌊v⌋ for 0 ≤ v < 2³¹, inline on machines without SSE 4 too.
+inline int ceil_of(double v) {
+    const int i = static_cast<int>(v);
+    return i + (static_cast<double>(i) < v ? 1 : 0);
+}
+inline int floor_of(double v) {
+    return static_cast<int>(v);
+}
 
 inline double norm1(const Vec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// The voxels of [lo,hi] on one axis that lie between the corners' extremes.
-inline void voxel_range(const std::array<Vec3, 4>& corner, int axis, int size, int& lo, int& hi) {
-    const double a = std::min(std::min(corner[0][axis], corner[1][axis]), std::min(corner[2][axis], corner[3][axis]));
-    const double b = std::max(std::max(corner[0][axis], corner[1][axis]), std::max(corner[2][axis], corner[3][axis]));
-    const double last = static_cast<double>(size - 1);
-    lo = static_cast<int>(std::ceil(std::clamp(a - scan_tolerance, 0.0, last + 1)));
-    hi = static_cast<int>(std::floor(std::clamp(b + scan_tolerance, -1.0, last)));
+/// The voxels first…last of 0…size−1 that four coordinates enclose; false when there is none.
+inline bool voxels_between(double a, double b, double c, double d, int size, int& first, int& last) {
+    const double lo = std::min(std::min(a, b), std::min(c, d)) - scan_tolerance;
+    const double hi = std::max(std::max(a, b), std::max(c, d)) + scan_tolerance;
+    first = ceil_of(std::clamp(lo, 0.0, static_cast<double>(size)));
+    last = floor_of(std::clamp(hi, -1.0, static_cast<double>(size - 1)) + 1) - 1;
+    return first <= last;
 }
 
-/// Half-planes over (x,y) from facets parallel to z: p·x + q·y + r ≥ 0.
-struct Walls {
-    std::array<Vec3, 4> wall;  ///< (p, q, r)
-    int count = 0;
-
-    /// Narrows [ya,yb] to what the walls leave of it at x.
-    void narrow(int x, int& ya, int& yb) const {
-        for (int w = 0; w < count; ++w) {
-            const auto& [p, q, r] = wall[static_cast<std::size_t>(w)];
-            const double rest = p * x + r;
-            if (q > 0) {
-                const double bound = -rest / q;
-                ya = bound > yb ? yb + 1 : bound > ya ? static_cast<int>(std::ceil(bound)) : ya;
-            } else if (q < 0) {
-                const double bound = -rest / q;
-                yb = bound < ya ? ya - 1 : bound < yb ? static_cast<int>(std::floor(bound)) : yb;
-            } else if (rest < 0) {
-                yb = ya - 1;
-            }
-        }
-    }
+/// What bounds the rows of a cell.
+struct Bounds {
+    Slopes below, above;  ///< of z along a row
+    Slopes front, back;   ///< of y at an x: the cell's outline seen along z
 };
 
-template <int Below, int Above, class Row>
-void scan_rows(const ScanCell& cell, const std::array<Slope, 4>& below, const std::array<Slope, 4>& above,
-               const Walls& walls, Row&& row) {
+/// A facet parallel to z, p·x + q·y + r ≥ 0, bounds y, or x if it is parallel to y as well.
+inline void add_wall(double p, double q, double r, Bounds& bounds, ScanCell& cell) {
+    if (std::abs(q) > 1e-14 * std::abs(p)) {
+        (q > 0 ? bounds.front : bounds.back).add({-p / q, 0, -r / q});
+    } else if (p > 0) {
+        cell.lo[0] = std::max(cell.lo[0], ceil_of(std::clamp(-r / p, 0.0, cell.hi[0] + 1.0)));
+    } else {
+        cell.hi[0] = std::min(cell.hi[0], floor_of(std::clamp(-r / p, -1.0, double(cell.hi[0])) + 1) - 1);
+    }
+}
+
+/// Below an edge between a lower and an upper facet no row can hold a voxel: narrows y, generously, as rows decide for
+/// themselves.
+inline void add_outline(const Slope& lower, const Slope& upper, Bounds& bounds) {
+    const double db = upper.b - lower.b;
+    const double size = std::abs(lower.a) + std::abs(upper.a) + std::abs(lower.b) + std::abs(upper.b);
+    const double inverse = 1 / db;
+    const double margin = 1e-12 * (64 * size + std::abs(lower.c) + std::abs(upper.c)) * std::abs(inverse);
+    if (!(margin < 0.5)) {
+        return;  // nearly parallel: says nothing about y
+    }
+    const double a = (lower.a - upper.a) * inverse;
+    const double c = (lower.c - upper.c) * inverse;
+    if (db > 0) {
+        bounds.front.add({a, 0, c - margin});
+    } else {
+        bounds.back.add({a, 0, c + margin});
+    }
+}
+
+template <std::size_t Below, std::size_t Above, class Row>
+void scan_rows(const ScanCell& cell, const Bounds& bounds, Row&& row) {
     const double z_lo = cell.lo[2];
     const double z_hi = cell.hi[2];
     for (int x = cell.lo[0]; x <= cell.hi[0]; ++x) {
-        int ya = cell.lo[1];
-        int yb = cell.hi[1];
-        walls.narrow(x, ya, yb);
-        std::array<double, static_cast<std::size_t>(Below)> lower;
-        std::array<double, static_cast<std::size_t>(Above)> upper;
-        for (std::size_t k = 0; k < lower.size(); ++k) {
-            lower[k] = below[k].a * x + below[k].c;
+        double y_lo = cell.lo[1];
+        double y_hi = cell.hi[1];
+        for (std::size_t k = 0; k < bounds.front.count; ++k) {
+            y_lo = std::max(y_lo, bounds.front.slope[k].a * x + bounds.front.slope[k].c);
         }
-        for (std::size_t k = 0; k < upper.size(); ++k) {
-            upper[k] = above[k].a * x + above[k].c;
+        for (std::size_t k = 0; k < bounds.back.count; ++k) {
+            y_hi = std::min(y_hi, bounds.back.slope[k].a * x + bounds.back.slope[k].c);
         }
-        for (int y = ya; y <= yb; ++y) {
+        if (y_lo > y_hi) {
+            continue;
+        }
+        std::array<double, Below> lower;
+        std::array<double, Above> upper;
+        for (std::size_t k = 0; k < Below; ++k) {
+            lower[k] = bounds.below.slope[k].a * x + bounds.below.slope[k].c;
+        }
+        for (std::size_t k = 0; k < Above; ++k) {
+            upper[k] = bounds.above.slope[k].a * x + bounds.above.slope[k].c;
+        }
+        const int last = floor_of(y_hi);
+        for (int y = ceil_of(y_lo); y <= last; ++y) {
             double lo = z_lo;
             double hi = z_hi;
-            for (std::size_t k = 0; k < lower.size(); ++k) {
-                const double z = lower[k] + below[k].b * y;
-                lo = z > lo ? z : lo;
+            for (std::size_t k = 0; k < Below; ++k) {
+                lo = std::max(lo, lower[k] + bounds.below.slope[k].b * y);
             }
-            for (std::size_t k = 0; k < upper.size(); ++k) {
-                const double z = upper[k] + above[k].b * y;
-                hi = z < hi ? z : hi;
+            for (std::size_t k = 0; k < Above; ++k) {
+                hi = std::min(hi, upper[k] + bounds.above.slope[k].b * y);
             }
-            if (lo > hi) {
-                continue;
-            }
-            // Both are in [0, size): truncation is the floor, and needs no call on machines without SSE 4.
-            int za = static_cast<int>(lo);
-            za += static_cast<double>(za) < lo ? 1 : 0;
-            const int zb = static_cast<int>(hi);
-            if (za <= zb) {
-                row(x, y, za, zb);
+            if (lo <= hi) {
+                const int za = ceil_of(lo);
+                const int zb = floor_of(hi);
+                if (za <= zb) {
+                    row(x, y, za, zb);
+                }
             }
         }
     }
@@ -132,10 +164,10 @@ inline ScanCell make_scan_cell(const std::array<Vec3, 4>& corner, const std::arr
     cell.corner = corner;
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        detail::voxel_range(corner, axis, size[k], cell.lo[k], cell.hi[k]);
-    }
-    if (cell.empty()) {
-        return cell;
+        if (!detail::voxels_between(corner[0][axis], corner[1][axis], corner[2][axis], corner[3][axis], size[k],
+                                    cell.lo[k], cell.hi[k])) {
+            return cell;
+        }
     }
     const Vec3 e1 = corner[1] - corner[0];
     const Vec3 e2 = corner[2] - corner[0];
@@ -155,15 +187,8 @@ inline ScanCell make_scan_cell(const std::array<Vec3, 4>& corner, const std::arr
 /// Calls row(x, y, za, zb) for each row of voxels (x, y, za…zb) in the cell, x and y ascending.
 /// \pre cell is not empty.
 template <class Row>
-void scan(const ScanCell& cell, Row&& row) {
-    constexpr double unbounded = 1e300;
-    std::array<detail::Slope, 4> below;
-    std::array<detail::Slope, 4> above;
-    below.fill({0, 0, -unbounded});
-    above.fill({0, 0, unbounded});
-    detail::Walls walls;
-    std::size_t n_below = 0;
-    std::size_t n_above = 0;
+void scan(ScanCell cell, Row&& row) {
+    detail::Bounds bounds;
     for (std::size_t k = 0; k < 4; ++k) {
         // Facets opposite corners 0 and 2 turn the other way than those opposite 1 and 3.
         const Vec3& n = cell.normal[k];
@@ -172,8 +197,7 @@ void scan(const ScanCell& cell, Row&& row) {
         const double slack = scan_tolerance * detail::norm1(n);
         if (std::abs(n.z) <= 1e-14 * detail::norm1(n)) {
             const double sign = inwards ? 1 : -1;
-            walls.wall[static_cast<std::size_t>(walls.count++)] = {sign * n.x, sign * n.y,
-                                                                   slack - sign * (n.x * anchor.x + n.y * anchor.y)};
+            detail::add_wall(sign * n.x, sign * n.y, slack - sign * (n.x * anchor.x + n.y * anchor.y), bounds, cell);
             continue;
         }
         const double inverse = 1 / n.z;
@@ -182,19 +206,31 @@ void scan(const ScanCell& cell, Row&& row) {
         const double c = anchor.z - a * anchor.x - b * anchor.y;
         const double widening = slack * std::abs(inverse);
         if (inwards == (n.z > 0)) {
-            below[n_below++] = {a, b, c - widening};
+            bounds.below.add({a, b, c - widening});
         } else {
-            above[n_above++] = {a, b, c + widening};
+            bounds.above.add({a, b, c + widening});
         }
     }
-    if (n_below == 2 && n_above == 2) {
-        detail::scan_rows<2, 2>(cell, below, above, walls, row);
-    } else if (n_below == 1 && n_above == 3) {
-        detail::scan_rows<1, 3>(cell, below, above, walls, row);
-    } else if (n_below == 3 && n_above == 1) {
-        detail::scan_rows<3, 1>(cell, below, above, walls, row);
-    } else {
-        detail::scan_rows<3, 3>(cell, below, above, walls, row);  // with walls: up to three on either side
+    for (std::size_t i = 0; i < bounds.below.count; ++i) {
+        for (std::size_t j = 0; j < bounds.above.count; ++j) {
+            detail::add_outline(bounds.below.slope[i], bounds.above.slope[j], bounds);
+        }
+    }
+    if (bounds.below.count == 2 && bounds.above.count == 2) {
+        detail::scan_rows<2, 2>(cell, bounds, row);
+    } else if (bounds.below.count == 1 && bounds.above.count == 3) {
+        detail::scan_rows<1, 3>(cell, bounds, row);
+    } else if (bounds.below.count == 3 && bounds.above.count == 1) {
+        detail::scan_rows<3, 1>(cell, bounds, row);
+    } else {  // walls leave fewer bounds on z
+        constexpr double none = 1e300;
+        while (bounds.below.count < 3) {
+            bounds.below.add({0, 0, -none});
+        }
+        while (bounds.above.count < 3) {
+            bounds.above.add({0, 0, none});
+        }
+        detail::scan_rows<3, 3>(cell, bounds, row);
     }
 }
 

@@ -60,11 +60,6 @@ void require_known_meanings(const ColumnNames& overrides) {
     }
 }
 
-int column_named(const Table& table, const std::string& name) {
-    const auto found = std::ranges::find(table.columns, lower(name), [](const auto& column) { return lower(column); });
-    return found == table.columns.end() ? -1 : static_cast<int>(found - table.columns.begin());
-}
-
 int column_of_alias(const Table& table, Meaning meaning) {
     std::vector<std::string> headers;
     for (const std::string& column : table.columns) {
@@ -120,7 +115,8 @@ const std::vector<std::string>& aliases(Meaning meaning) {
         {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "sampto", "sampleto", "intervalto", "bottom",
          "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
         // depth
-        {"at", "depth", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "dept", "distance", "surveyat"},
+        {"at", "deat", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "surveyat", "depth", "dept",
+         "distance"},
         // azimuth
         {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
          "azimuthgrid", "gridazimuth", "azimuthtrue"},
@@ -146,6 +142,11 @@ std::string normal_header(const std::string& header) {
         joined += word;
     }
     return joined;
+}
+
+int column_named(const Table& table, const std::string& name) {
+    const auto found = std::ranges::find(table.columns, lower(name), [](const auto& column) { return lower(column); });
+    return found == table.columns.end() ? -1 : static_cast<int>(found - table.columns.begin());
 }
 
 int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {

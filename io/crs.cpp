@@ -119,7 +119,13 @@ Crs describe(PJ_CONTEXT* context, const Pj& crs) {
     if (!axis || wkt == nullptr || !flat) {
         return {};
     }
-    Crs result{wkt, display_name(crs.get()), geographic, axis->unit, geographic ? 1.0 : axis->to_si, 1.0};
+    Crs result;
+    result.wkt = wkt;
+    result.name = display_name(crs.get());
+    result.geographic = geographic;
+    result.local = result.wkt.starts_with("ENGCRS");
+    result.unit = axis->unit;
+    result.metres_per_unit = geographic ? 1.0 : axis->to_si;
     result.metres_per_height = own_height_unit(context, crs.get()).value_or(result.metres_per_unit);
     return result;
 }

@@ -19,6 +19,7 @@ struct Crs {
     std::string wkt;   ///< WKT2:2019; empty: none given
     std::string name;  ///< "EPSG:3067 ETRS89 / TM35FIN(E,N)" or the name alone
     bool geographic = false;
+    bool local = false;              ///< an engineering frame, unrelated to the globe
     std::string unit = "metre";      ///< of the horizontal axes: "metre", "US survey foot", "degree", …
     double metres_per_unit = 1.0;    ///< of a projected CRS
     double metres_per_height = 1.0;  ///< unit of heights

@@ -18,13 +18,6 @@ constexpr std::array<const char*, 14> allowed_drivers{
     "CSV",    "XLSX",       "XLS",     "ODS",        "GPKG",        "ESRI Shapefile", "PostgreSQL",
     "SQLite", "FlatGeobuf", "GeoJSON", "GeoJSONSeq", "OpenFileGDB", "MapInfo File",   nullptr};
 
-void register_drivers() {
-    [[maybe_unused]] static const bool once = [] {
-        GDALAllRegister();
-        return true;
-    }();
-}
-
 bool is_connection(const std::string& path) {
     return path.starts_with("PG:");
 }
@@ -94,8 +87,8 @@ Dataset try_open(const std::string& path, const Source& source) {
                                      options.List(), nullptr));
 }
 
-std::string reason(const GdalMessages& messages) {
-    return messages.last().empty() ? "" : " (" + messages.last() + ")";
+std::string reason(const GdalScope& scope) {
+    return scope.failed() ? " (" + scope.failure() + ")" : "";
 }
 
 std::string layer_names(GDALDataset& dataset) {
@@ -106,12 +99,11 @@ std::string layer_names(GDALDataset& dataset) {
     return names.empty() ? "none" : names;
 }
 
-OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalMessages& messages, ResultSet& result_set) {
+OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set) {
     if (!source.sql.empty()) {
         result_set = ResultSet(dataset.ExecuteSQL(source.sql.c_str(), nullptr, nullptr), {&dataset});
         if (!result_set) {
-            throw InputError(source.describe() + ": the statement '" + source.sql + "' gives no rows" +
-                             reason(messages));
+            throw InputError(source.describe() + ": the statement '" + source.sql + "' gives no rows" + reason(scope));
         }
         return result_set.get();
     }
@@ -125,25 +117,8 @@ OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalMessa
 
 }  // namespace
 
-GdalMessages::GdalMessages() {
-    CPLPushErrorHandlerEx(&GdalMessages::receive, this);
-}
-GdalMessages::~GdalMessages() {
-    CPLPopErrorHandler();
-}
-
-void CPL_STDCALL GdalMessages::receive(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
-    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    if (severity >= CE_Failure) {
-        self->failure_ = text;
-    } else if (severity == CE_Warning) {
-        self->warning_ = text;
-    }
-}
-
 Dataset open_vector(const Source& source) {
-    register_drivers();
-    const GdalMessages messages;
+    const GdalScope scope;
     const std::string path = plain_path(source.path);
     const bool file = !is_connection(source.path);
     if (file && !is_stream(path)) {
@@ -164,16 +139,16 @@ Dataset open_vector(const Source& source) {
             source.describe() +
             ": no table that can be read (CSV, XLSX, ODS, XLS, GeoPackage, Shapefile, FlatGeobuf, GeoJSON, "
             "FileGDB, SQLite, MapInfo, PostGIS)" +
-            reason(messages));
+            reason(scope));
     }
     return dataset;
 }
 
-OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalMessages& messages, ResultSet& result_set) {
-    OGRLayer* const layer = find_layer(dataset, source, messages, result_set);
+OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set) {
+    OGRLayer* const layer = find_layer(dataset, source, scope, result_set);
     if (!source.where.empty() && layer->SetAttributeFilter(source.where.c_str()) != OGRERR_NONE) {
         throw InputError(source.describe() + ": the filter where=" + source.where + " is not understood" +
-                         reason(messages));
+                         reason(scope));
     }
     return *layer;
 }

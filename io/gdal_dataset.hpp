@@ -9,28 +9,10 @@
 #include <memory>
 #include <string>
 
+#include "io/gdal_scope.hpp"
 #include "io/source.hpp"
 
 namespace terratet {
-
-/// Keeps what GDAL says on this thread, so that nothing is printed and exceptions can quote it. Must outlive the
-/// datasets used under it, for closing may speak too.
-class GdalMessages {
-  public:
-    GdalMessages();
-    ~GdalMessages();
-    GdalMessages(const GdalMessages&) = delete;
-    GdalMessages& operator=(const GdalMessages&) = delete;
-
-    /// The last failure, or else the last warning; empty for none.
-    [[nodiscard]] std::string last() const { return failure_.empty() ? warning_ : failure_; }
-
-  private:
-    static void CPL_STDCALL receive(CPLErr severity, CPLErrorNum number, const char* text);
-
-    std::string failure_;
-    std::string warning_;
-};
 
 struct DatasetCloser {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
@@ -49,7 +31,7 @@ struct ResultSetReleaser {
     void operator()(OGRLayer* layer) const { dataset->ReleaseResultSet(layer); }
 };
 using ResultSet = std::unique_ptr<OGRLayer, ResultSetReleaser>;
-OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalMessages& messages, ResultSet& result_set);
+OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set);
 
 /// Text as UTF-8: unchanged when it is, else taken for Windows-1252.
 std::string utf8(const char* text);

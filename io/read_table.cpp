@@ -10,6 +10,7 @@
 #include <cmath>
 #include <regex>
 #include <set>
+#include <span>
 
 #include "io/gdal_dataset.hpp"
 #include "tess/error.hpp"
@@ -195,7 +196,11 @@ Comma comma_in(const std::string& cell) {
 void accept_decimal_commas(Table& table) {
     std::vector<std::size_t> columns;
     bool proven = false;
+    const int id = find_optional_column(table, Meaning::id, {});
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
+        if (static_cast<int>(column) == id) {
+            continue;  // ids stay as they are
+        }
         std::set<Comma> found;
         for (const std::string& cell : table.cells[column]) {
             found.insert(comma_in(cell));
@@ -244,11 +249,11 @@ bool names_option(const Source& source, const std::string& key) {
 }
 
 Table read_once(const Source& source, bool& csv) {
-    const GdalMessages messages;
+    const GdalScope scope;
     const Dataset dataset = open_vector(source);
     csv = is_csv(*dataset);
     ResultSet result_set;
-    OGRLayer& layer = open_layer(*dataset, source, messages, result_set);
+    OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
     Table table = read_layer(layer, source);
     if (table.rows() == 0) {
         throw InputError(table.file + ": has no row" +

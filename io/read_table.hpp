@@ -50,6 +50,9 @@ int find_column(const Table& table, Meaning meaning, const ColumnNames& override
 /// As find_column, but for a table that may do without the meaning: −1 also where find_column would throw.
 int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides);
 
+/// The column of that name, in any case; −1 when there is none.
+int column_named(const Table& table, const std::string& name);
+
 /// "id", "x", …: as `--columns` names them.
 const char* to_string(Meaning meaning);
 

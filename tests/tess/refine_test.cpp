@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tess/cells.hpp"
+#include "tess/quality.hpp"
+#include "tess/verify.hpp"
+#include "tests/tess/worlds.hpp"
+
+using namespace terratet;
+using testing::build_world;
+using testing::random_world;
+
+namespace {
+
+constexpr std::uint64_t world_count = 200;
+
+constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// A built world with its flat mesh, for oracles that know nothing of how it was made.
+struct Case {
+    testing::World world;
+    Model model;
+    BuildReport report;
+    TetMesh mesh;
+    CellTable table;
+
+    [[nodiscard]] CellPoints corners(std::size_t c) const {
+        const auto& v = mesh.cells[c];
+        return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
+    }
+};
+
+template <class Check>
+void for_each_world(const Check& check, std::uint64_t count = world_count) {
+    for (std::uint64_t seed = 0; seed < count; ++seed) {
+        Case c;
+        c.world = random_world(seed);
+        INFO(c.world.description);
+        auto built = build_world(c.world);
+        c.model = std::move(built.model);
+        c.report = std::move(built.report);
+        c.mesh = tessellate(c.model).mesh();
+        c.table = describe_cells(c.model, c.mesh);
+        check(c);
+    }
+}
+
+/// The largest |Δf| over its limit along an edge, edges across a fault left out.
+double worst_variation(const Case& c, const FaultProximity& proximity, std::size_t cell) {
+    double worst = 0;
+    for (std::size_t p = 0; p < c.model.criteria.variation.size(); ++p) {
+        const double limit = c.model.criteria.variation[p].df_max;
+        for (const auto& [i, j] : cell_edges) {
+            const auto a = c.mesh.cells[cell][i];
+            const auto b = c.mesh.cells[cell][j];
+            const auto& column = c.model.vertex_values.values[p];
+            if (limit > 0 && !proximity.crosses_any(c.mesh.points[a], c.mesh.points[b])) {
+                worst = std::max(worst, scaled_difference(c.model.properties[p], column[a], column[b]) / limit);
+            }
+        }
+    }
+    return worst;
+}
+
+bool is_good(const Case& c, const FaultProximity& proximity, std::size_t cell) {
+    const Criteria& limits = c.model.criteria;
+    const CellQuality q = cell_quality(c.corners(cell));
+    constexpr double slack = 1 + 1e-9;
+    return q.longest_edge <= limits.l_max * slack &&
+           (limits.radius_edge == 0 || q.radius_edge <= limits.radius_edge * slack) &&
+           (limits.aspect == 0 || q.aspect <= limits.aspect * slack) &&
+           (limits.v_max == 0 || q.volume <= limits.v_max * slack) && worst_variation(c, proximity, cell) <= slack;
+}
+
+}  // namespace
+
+TEST_CASE("R1: inserted vertices never exceed the packing bound, and refinement terminates") {
+    for_each_world([](const Case& c) {
+        REQUIRE(static_cast<double>(c.report.refine.inserted) <= c.report.refine.bound);
+        REQUIRE(c.report.refine.bound == packing_bound(c.model.domain.hull, c.model.criteria.l_min));
+        REQUIRE(static_cast<std::uint64_t>(std::ranges::count(c.model.vertices, Role::inserted, &Vertex::role)) ==
+                c.report.refine.inserted);
+    });
+}
+
+TEST_CASE("R1: the bound is the densest packing's in the grown box") {
+    // Swollen by a half on all sides, the box of 10³ has 10³ + 6·10²·½ + 3·10·π/4 + π/6.
+    const double swollen = 1000 + 300 + 7.5 * M_PI + M_PI / 6;
+    CHECK(packing_bound({{0, 0, 0}, {10, 10, 10}}, 1) == std::ceil(std::sqrt(2.0) * swollen));
+}
+
+TEST_CASE("R2: each cell outside the gaps meets every insertion criterion or carries a reason code") {
+    std::size_t excused = 0;
+    for_each_world([&](const Case& c) {
+        const FaultProximity proximity(c.model.faults);
+        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
+            if (c.table.fault[cell] >= 0) {
+                continue;
+            }
+            const bool good = is_good(c, proximity, cell);
+            const Reason reason = c.table.reason[cell];
+            excused += good ? 0 : 1;
+            REQUIRE((good || reason != Reason::none));
+            if (reason == Reason::too_close) {
+                REQUIRE(cell_quality(c.corners(cell)).circumradius < c.model.criteria.l_min + 1e-6);
+            }
+        }
+    });
+    CHECK(excused > 0);
+}
+
+TEST_CASE("R3: no inserted vertex is nearer than l_min to any other vertex") {
+    for_each_world([](const Case& c) {
+        for (const Vertex& a : c.model.vertices) {
+            if (a.role != Role::inserted) {
+                continue;
+            }
+            for (const Vertex& b : c.model.vertices) {
+                if (a.id != b.id && distance(a.position, b.position) < c.model.criteria.l_min) {
+                    FAIL("vertices " << a.id << " and " << b.id << " are " << distance(a.position, b.position) << " apart");
+                }
+            }
+        }
+    });
+}
+
+TEST_CASE("R4: with l_max at least 4 l_min no edge exceeds l_max but near faults and in smooth cells") {
+    int promised = 0;
+    for_each_world([&](const Case& c) {
+        if (c.model.criteria.l_max < 4 * c.model.criteria.l_min) {
+            return;
+        }
+        ++promised;
+        const FaultProximity proximity(c.model.faults);
+        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
+            const Circumsphere sphere = circumsphere(c.corners(cell));
+            if (c.table.fault[cell] < 0 && c.table.reason[cell] != Reason::smooth &&
+                c.model.domain.extent.contains(sphere.center) && proximity.protecting_fault(sphere.center) < 0) {
+                REQUIRE(cell_quality(c.corners(cell)).longest_edge <= c.model.criteria.l_max * (1 + 1e-9));
+            }
+        }
+    });
+    CHECK(promised > 30);
+}
+
+TEST_CASE("R5: the tessellation is Delaunay, by brute force over all cells and vertices") {
+    for_each_world(
+        [](const Case& c) {
+            REQUIRE(tessellate(c.model).is_delaunay());
+            if (c.model.vertices.size() > 600) {
+                return;
+            }
+            for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
+                const Circumsphere sphere = circumsphere(c.corners(cell));
+                for (const Vec3& p : c.mesh.points) {
+                    // Cospherical vertices are decided by exact predicates; here only a clear intrusion counts.
+                    if (squared_distance(p, sphere.center) < sphere.squared_radius * (1 - 1e-7) - 1e-6 &&
+                        std::isfinite(sphere.squared_radius) && sphere.squared_radius < 1e10) {
+                        FAIL("a vertex lies inside a circumsphere");
+                    }
+                }
+            }
+        },
+        60);
+}
+
+TEST_CASE("R6: the result does not depend on the order of rows") {
+    testing::Random random(6);
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        testing::World world = random_world(seed);
+        INFO(world.description);
+        const Model first = build_world(world).model;
+        std::vector<std::uint32_t> order(world.site.samples.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) {
+            order[i] = i;
+        }
+        for (std::size_t i = order.size(); i > 1; --i) {
+            std::swap(order[i - 1], order[random.below(i)]);
+        }
+        world.site.samples = selected(world.site.samples, order);
+        std::ranges::reverse(world.site.surfaces);
+        const Model second = build_world(world).model;
+        REQUIRE(first.vertices == second.vertices);
+        REQUIRE(first.vertex_values.values.size() == second.vertex_values.values.size());
+        REQUIRE(tessellate(first).mesh().cells == tessellate(second).mesh().cells);
+    }
+}
+
+TEST_CASE("R7: refining a finished model again inserts nothing") {
+    for_each_world([](const Case& c) {
+        Tessellation again = tessellate(c.model);
+        VertexValues values = c.model.vertex_values;
+        const FaultProximity proximity(c.model.faults);
+        const auto report = refine(again, values, c.model.domain, c.model.frame, proximity, c.model.criteria,
+                                   c.model.properties, testing::analytic_field()(c.model, proximity));
+        REQUIRE(report.inserted == 0);
+    });
+}
+
+TEST_CASE("F1: no edge crosses a fault but between its seeds, in whole models") {
+    std::size_t faults = 0;
+    for_each_world([&](const Case& c) {
+        faults += c.model.faults.size();
+        REQUIRE(c.report.fault_crossing_edges == 0);
+    });
+    CHECK(faults > 50);
+}
+
+TEST_CASE("V1: kept samples carry their measured values") {
+    for_each_world([](const Case& c) {
+        for (std::size_t i = 0; i < c.model.vertices.size(); ++i) {
+            const Vertex& v = c.model.vertices[i];
+            for (std::size_t p = 0; v.role == Role::sample && p < c.model.properties.size(); ++p) {
+                const double measured = c.model.samples.values[p][static_cast<std::size_t>(v.owner)];
+                REQUIRE((std::isnan(measured) || c.model.vertex_values.values[p][i] == measured));
+                REQUIRE(c.model.samples.positions[static_cast<std::size_t>(v.owner)] == v.position);
+            }
+        }
+    });
+}
+
+TEST_CASE("The cells fill the hull box, and every vertex has its values") {
+    for_each_world([](const Case& c) {
+        double volume = 0;
+        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
+            volume += cell_quality(c.corners(cell)).volume;
+        }
+        REQUIRE(volume == Approx(c.model.domain.hull.volume()).epsilon(1e-9));
+        REQUIRE(c.model.vertex_values.extrapolation.size() == c.model.vertices.size());
+        REQUIRE(c.model.vertex_values.values[0].size() == c.model.vertices.size());
+    });
+}
+
+TEST_CASE("Verification agrees that every guarantee holds") {
+    for_each_world(
+        [](const Case& c) {
+            for (const Verdict& verdict : verify(c.model)) {
+                INFO(verdict.guarantee << ": " << verdict.detail);
+                REQUIRE(verdict.holds);
+            }
+        },
+        60);
+}
+
+TEST_CASE("Verification notices what is broken") {
+    const auto failing = [](const Model& model) {
+        std::vector<std::string> names;
+        for (const Verdict& verdict : verify(model)) {
+            if (!verdict.holds) {
+                names.push_back(verdict.guarantee);
+            }
+        }
+        return names;
+    };
+    testing::World world = random_world(5);
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    const Model sound = build_world(world).model;
+    REQUIRE(failing(sound).empty());
+
+    Model model = sound;
+    const auto sample = std::ranges::find(model.vertices, Role::sample, &Vertex::role);
+    REQUIRE(sample != model.vertices.end());
+    model.vertex_values.values[0][static_cast<std::size_t>(sample - model.vertices.begin())] = 1e6;
+    CHECK_THAT(failing(model), Catch::VectorContains(std::string("V1")));
+
+    model = sound;
+    model.vertices.push_back({model.vertices.back().id + 1, model.vertices.back().position + Vec3{1, 1, 1}, Role::inserted, -1, 0});
+    for (auto& column : model.vertex_values.values) {
+        column.push_back(0);
+    }
+    model.vertex_values.extrapolation.push_back(0);
+    CHECK_THAT(failing(model), Catch::VectorContains(std::string("R3")));
+
+    model = sound;
+    model.criteria.l_max /= 3;
+    CHECK_THAT(failing(model), Catch::VectorContains(std::string("R7")));
+
+    model = sound;
+    std::erase_if(model.vertices, [](const Vertex& v) { return v.role == Role::sample; });
+    for (std::size_t i = 0; i < model.vertices.size(); ++i) {
+        model.vertices[i].id = i;
+    }
+    CHECK_THAT(failing(model), Catch::VectorContains(std::string("D2")));
+}
+
+TEST_CASE("A site without samples and without extent cannot be built, and says so") {
+    BuildReport report;
+    CHECK_THROWS_AS(build({}, {}, testing::analytic_field(), report), InputError);
+}
+
+TEST_CASE("Too many vertices are refused, naming the option") {
+    testing::World world = random_world(5);
+    world.options.refine.max_vertices = 500;
+    CHECK_THROWS_WITH(build_world(world), Catch::Contains("--max-vertices"));
+}
+
+TEST_CASE("Refinement can be cancelled") {
+    const testing::World world = random_world(5);
+    BuildReport report;
+    CHECK_THROWS_AS(build(world.site, world.options, testing::analytic_field(), report,
+                          [](std::string_view, double) { return false; }),
+                    Cancelled);
+}

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: giving a fault triangles of the size of its seed spacing.
+
+#include "tess/fault_mesh.hpp"
+
+namespace terratet {
+
+/// Do the vertices already suit the spacing: nearly all triangles covered within s/√2, and not many more vertices than
+/// that takes? Such a mesh, a 20 m grid for s = 20 m, is kept point by point.
+bool suits(const FaultMesh& mesh, double spacing);
+
+/// Isotropic triangles of edge length `spacing` (CGAL's isotropic remeshing; corners of the rim stay). Returns the mesh
+/// unchanged where that fails, or loses more than a tenth of the area, or strays farther than half the spacing.
+/// Deterministic. About 30 µs a vertex.
+FaultMesh remeshed(const FaultMesh& mesh, double spacing);
+
+/// Largest distance between two meshes, both ways, at their vertices and centroids that lie within `where`; distances
+/// above `limit` count as `limit`.
+double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, double limit);
+
+/// Evens out bends the spacing can't resolve: moves each point, rim points along with their rim neighbours only, half
+/// way to the mean of its neighbours.
+void smooth(FaultMesh& mesh, const std::vector<char>& movable);
+
+}  // namespace terratet

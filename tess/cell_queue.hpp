@@ -7,7 +7,7 @@
 /// Worst first, by eighths of an octave of the violation; within one such class the latest first, so that work stays where
 /// the caches are warm. The order depends on the order of pushes alone, hence is deterministic when that is.
 ///
-/// A cell carries the slot of its entry in info(); whoever destroys a cell calls forget() first, so no entry ever refers
+/// A cell carries the slot of its entry as its tag; whoever destroys a cell calls forget() first, so no entry ever refers
 /// to a cell that is gone.
 
 #include <cmath>
@@ -30,7 +30,7 @@ class CellQueue {
             free_.pop_back();
             cells_[slot] = cell;
         }
-        cell->info() = slot;
+        cell->info().tag = slot;
         const int level = level_of(violation);
         levels_[static_cast<std::size_t>(level)].push_back(slot);
         top_ = std::max(top_, level);
@@ -38,9 +38,9 @@ class CellQueue {
     }
 
     void forget(delaunay::Cell cell) {
-        if (cell->info() != delaunay::none) {
-            cells_[cell->info()] = delaunay::Cell();
-            cell->info() = delaunay::none;
+        if (cell->info().tag != delaunay::none) {
+            cells_[cell->info().tag] = delaunay::Cell();
+            cell->info().tag = delaunay::none;
             --waiting_;
         }
     }
@@ -54,7 +54,7 @@ class CellQueue {
                 level.pop_back();
                 free_.push_back(slot);
                 if (const delaunay::Cell cell = cells_[slot]; cell != delaunay::Cell()) {
-                    cell->info() = delaunay::none;
+                    cell->info().tag = delaunay::none;
                     --waiting_;
                     return cell;
                 }

@@ -24,7 +24,8 @@ CellPoints corners(const TetMesh& mesh, const std::array<std::uint32_t, 4>& cell
 
 JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
     std::ranges::sort(cell);
-    return {cell, corners(mesh, cell)};
+    const CellPoints points = corners(mesh, cell);
+    return {cell, points, circumsphere(points)};
 }
 
 /// Why the refiner left a cell as it is: the refiner's own rule, asked again, plus the distance of a projected point, which

@@ -19,8 +19,19 @@ inline constexpr std::uint32_t none = 0xffffffffU;
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Epick>;  // index in the vertex table
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Epick,  // scratch: whoever works on the cells
-                                                           CGAL::Delaunay_triangulation_cell_base_3<Epick>>;
+
+/// Not a number: no comparison with it holds.
+inline constexpr float unknown_radius = std::numeric_limits<float>::quiet_NaN();
+
+/// Scratch for whoever works on the cells; nothing here outlives an operation.
+struct CellInfo {
+    std::array<float, 3> center{};          ///< ConflictSearch's cached circumsphere
+    float squared_radius = unknown_radius;
+    std::uint32_t tag = none;               ///< a slot or number
+};
+
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<CellInfo, Epick, CGAL::Delaunay_triangulation_cell_base_3<Epick>>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Epick, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using Point = Epick::Point_3;
 using Cell = Triangulation::Cell_handle;

@@ -44,7 +44,7 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
         longest = std::max(longest, d);
     }
     double worst = std::sqrt(longest) / criteria_.l_max;
-    const Circumsphere sphere = circumsphere(p);
+    const Circumsphere& sphere = cell.sphere;
     if (criteria_.radius_edge > 0) {
         worst = std::max(worst, std::sqrt(sphere.squared_radius / shortest) / criteria_.radius_edge);
     }
@@ -123,7 +123,7 @@ bool InsertionRule::near_face(const Vec3& point) const {
 }
 
 Proposal InsertionRule::propose(const JudgedCell& cell) const {
-    const Circumsphere sphere = circumsphere(cell.points);
+    const Circumsphere& sphere = cell.sphere;
     Proposal proposal;
     proposal.radius = std::sqrt(sphere.squared_radius);
     if (!is_finite(sphere.center) || !std::isfinite(proposal.radius)) {

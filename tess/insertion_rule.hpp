@@ -23,6 +23,7 @@ namespace terratet {
 struct JudgedCell {
     std::array<std::uint32_t, 4> vertices;
     CellPoints points;
+    Circumsphere sphere;
 };
 
 /// Where a bad cell's new vertex would go. Distances to other vertices are still to be tested when `projected`.

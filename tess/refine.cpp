@@ -8,6 +8,7 @@
 
 #include "tess/cell_queue.hpp"
 #include "tess/cells.hpp"
+#include "tess/conflict_zone.hpp"
 #include "tess/delaunay.hpp"
 #include "tess/insertion_rule.hpp"
 
@@ -55,18 +56,6 @@ class BallPoints {
     std::uint64_t state_ = 0;
 };
 
-/// The conflict zone of a point: what its insertion would replace.
-struct Zone {
-    Vec3 point;
-    std::vector<Facet> boundary;
-    std::vector<Cell> cells;
-
-    void clear() {
-        boundary.clear();
-        cells.clear();
-    }
-};
-
 class Refiner {
   public:
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
@@ -75,11 +64,13 @@ class Refiner {
         : kernel_(tessellation.kernel()),
           values_(values),
           rule_(criteria, domain, frame, faults, properties, values),
+          search_(kernel_.triangulation, domain.hull),
           frame_(frame),
           source_(source),
           options_(options),
           values_at_once_(criteria.has_variation()),
           property_count_(properties.size()),
+          smallest_squared_radius_(criteria.l_min * criteria.l_min),
           has_faults_(!faults.empty()),
           first_new_(kernel_.vertices.size()) {
         report_.bound = packing_bound(domain.hull, criteria.l_min);
@@ -109,6 +100,7 @@ class Refiner {
             result.vertices[k] = order[k].first;
             result.points[k] = delaunay::from_cgal(cell->vertex(order[k].second)->point());
         }
+        result.sphere = circumsphere(result.points);
         return result;
     }
 
@@ -119,7 +111,7 @@ class Refiner {
         }
         std::vector<Cell> cells;
         for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
-            cell->info() = delaunay::none;
+            cell->info().tag = delaunay::none;
             if (!triangulation.is_infinite(cell)) {
                 cells.push_back(cell);
             }
@@ -132,6 +124,10 @@ class Refiner {
         bad_.clear();
         for (const Cell cell : cells) {
             const JudgedCell judged_cell = judged(cell);
+            search_.cache(cell, judged_cell.points, judged_cell.sphere);
+            if (judged_cell.sphere.squared_radius < smallest_squared_radius_) {
+                continue;  // rule 2 would refuse it: R is below l_min
+            }
             if (has_faults_ && gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
                 continue;
             }
@@ -172,10 +168,7 @@ class Refiner {
 
     /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
     bool find_zone(const Vec3& point, Cell start, Zone& zone) {
-        zone.clear();
-        zone.point = point;
-        kernel_.triangulation.find_conflicts(delaunay::to_cgal(point), start, std::back_inserter(zone.boundary),
-                                             std::back_inserter(zone.cells));
+        search_.find(point, start, zone);
         const double limit = rule_.l_min() * rule_.l_min();
         for (const Facet& facet : zone.boundary) {
             for (int k = 1; k < 4; ++k) {
@@ -239,6 +232,10 @@ class Refiner {
         for (const Cell cell : zone.cells) {
             queue_.forget(cell);
         }
+        outside_.clear();
+        for (const auto& [cell, k] : zone.boundary) {
+            outside_.emplace_back(cell->neighbor(k), cell->neighbor(k)->index(cell));
+        }
         auto& triangulation = kernel_.triangulation;
         const auto vertex = triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(),
                                                          zone.cells.end(), zone.boundary.front().first,
@@ -250,11 +247,11 @@ class Refiner {
             append_values(kernel_.vertices.size() - 1);
         }
         star_.clear();
-        triangulation.incident_cells(vertex, std::back_inserter(star_));
-        for (const Cell cell : star_) {
-            cell->info() = delaunay::none;
+        for (const auto& [cell, k] : outside_) {
+            if (const Cell fresh = cell->neighbor(k); !triangulation.is_infinite(fresh)) {
+                star_.push_back(fresh);
+            }
         }
-        std::erase_if(star_, [&](Cell cell) { return triangulation.is_infinite(cell); });
         queue_bad(star_);
         if (report_.inserted % 4096 == 0) {
             tell();
@@ -290,11 +287,13 @@ class Refiner {
     Tessellation::Kernel& kernel_;
     VertexValues& values_;
     InsertionRule rule_;
+    ConflictSearch search_;
     const Frame& frame_;
     const ValueSource& source_;
     const RefineOptions& options_;
     bool values_at_once_;
     std::size_t property_count_;
+    double smallest_squared_radius_;
     bool has_faults_;
     std::size_t first_new_;
     CellQueue queue_;
@@ -303,6 +302,7 @@ class Refiner {
     Zone zone_;
     Zone candidate_;
     std::vector<BadCell> bad_;
+    std::vector<Facet> outside_;  ///< the zone's boundary seen from outside: it outlives the zone
     std::vector<Cell> star_;
 };
 

@@ -83,14 +83,14 @@ TetMesh Tessellation::mesh() const {
     cells.reserve(triangulation.number_of_cells());
     for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
         if (triangulation.is_infinite(cell)) {
-            cell->info() = delaunay::none;
+            cell->info().tag = delaunay::none;
         } else {
             cells.push_back(canonical(cell));
         }
     }
     std::ranges::sort(cells, {}, &FlatCell::vertices);
     for (std::uint32_t c = 0; c < cells.size(); ++c) {
-        cells[c].cell->info() = c;
+        cells[c].cell->info().tag = c;
     }
     mesh.cells.reserve(cells.size());
     mesh.neighbours.reserve(cells.size());
@@ -98,7 +98,7 @@ TetMesh Tessellation::mesh() const {
         mesh.cells.push_back(flat.vertices);
         auto& neighbours = mesh.neighbours.emplace_back();
         for (std::size_t k = 0; k < 4; ++k) {
-            neighbours[k] = static_cast<std::int32_t>(flat.cell->neighbor(flat.order[k])->info());  // none becomes −1
+            neighbours[k] = static_cast<std::int32_t>(flat.cell->neighbor(flat.order[k])->info().tag);  // none becomes −1
         }
     }
     return mesh;

@@ -6,8 +6,8 @@
 /// ones. Guarantee X3: a stored model reloads to the same model, vertex for vertex and bit for bit, and so to the same
 /// tessellation.
 ///
-/// Writing is one transaction, journal_mode=DELETE and synchronous=FULL set explicitly; a new file is written beside its
-/// place and renamed, so that it appears whole or not at all.
+/// Writing is one transaction, journal_mode=DELETE and synchronous=FULL set explicitly; a new file is written beside
+/// its place and renamed, so that it appears whole or not at all.
 
 #include <string>
 #include <vector>
@@ -18,24 +18,30 @@ namespace terratet {
 
 struct JournalEntry {
     std::int64_t edit = 0;
-    std::string time;       ///< ISO 8601, UTC; SOURCE_DATE_EPOCH when set
+    std::string time;  ///< ISO 8601, UTC; SOURCE_DATE_EPOCH when set
     std::string command;
     std::string arguments;  ///< JSON
 };
 
-/// Writes a new model. Throws Error when the file exists and `overwrite` is false, or when writing fails (nothing is left).
+/// Writes a new model. `path` may be a PG: connection string; the layers then go to its active schema. Throws Error
+/// when the model exists and `overwrite` is false, when a text is not UTF-8, or when writing fails (nothing is left;
+/// what was there before stays). About 10 µs a vertex. \pre Every position is snapped (Frame::snapped); classes are
+/// distinct; indices are in range; prepared faults' sheets and
+///      margins are of kind fault; vertices of role domain and inserted have owner −1.
 void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite = false);
 
-/// Throws InputError: not found, not a Terratet model, a newer format version, a layer missing or damaged (named).
+/// Throws InputError: not found, not a Terratet model, another format version, a layer or row missing or damaged
+/// (named), or rows changed by another program (the stored digest tells).
 Model load_model(const std::string& path);
 
+/// Throws InputError as load_model does.
 std::vector<JournalEntry> load_journal(const std::string& path);
 
-/// Is this file a Terratet model? False for anything else, also for what does not exist.
+/// Is this a Terratet model? False for anything else, also for what does not exist.
 bool is_model(const std::string& path);
 
-/// SHA-256 over the model's canonical content (vertices, values, criteria, frame; no times): equal digests mean equal
-/// exports. Hex.
+/// SHA-256 over the model's content (all of tess/model.hpp but the paths of input files; no times): equal digests mean
+/// equal exports. Hex. The sign of zeros and the payload of NaNs do not count. About 1 s for ten million vertices.
 std::string model_digest(const Model& model);
 
 }  // namespace terratet

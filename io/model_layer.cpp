@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/model_layer.hpp"
+
+#include <cpl_string.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tess/error.hpp"
+
+namespace terratet {
+namespace {
+
+std::string because(const GdalScope& scope) {
+    return scope.failed() ? ": " + scope.failure() : "";
+}
+
+/// The same names in every database, whatever its driver's habits.
+CPLStringList layer_options(GDALDataset& dataset) {
+    CPLStringList options;
+    options.SetNameValue("FID", "fid");
+    options.SetNameValue("GEOMETRY_NAME", "geom");
+    if (EQUAL(dataset.GetDriverName(), "PostgreSQL")) {
+        options.SetNameValue("LAUNDER", "NO");
+        options.SetNameValue("OVERWRITE", "YES");
+        options.SetNameValue("FID64", "TRUE");
+    }
+    return options;
+}
+
+}  // namespace
+
+LayerWriter::LayerWriter(GDALDataset& dataset, const GdalScope& scope, const std::string& file, const char* name,
+                         OGRwkbGeometryType type, const OGRSpatialReference* reference)
+    : scope_(scope),
+      file_(file),
+      layer_(
+          dataset.CreateLayer(name, const_cast<OGRSpatialReference*>(reference), type, layer_options(dataset).List())) {
+    if (!layer_) {
+        throw Error("cannot write " + file_ + ": layer " + name + because(scope_));
+    }
+}
+
+Column LayerWriter::add(const std::string& name, OGRFieldType type) {
+    OGRFieldDefn definition(name.c_str(), type);
+    const Column column = layer_->GetLayerDefn()->GetFieldCount();
+    if (layer_->CreateField(&definition) != OGRERR_NONE || layer_->GetLayerDefn()->GetFieldCount() != column + 1) {
+        throw Error("cannot write " + file_ + ": column " + name + because(scope_));
+    }
+    return column;
+}
+
+/// One feature serves all rows; its cells are null (not unset), so that the driver prepares its statement once.
+void LayerWriter::begin_row() {
+    if (!row_) {
+        row_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
+        for (Column column = 0; column < row_->GetFieldCount(); ++column) {
+            row_->SetFieldNull(column);
+        }
+    }
+}
+
+void LayerWriter::set(Column column, double value) {
+    begin_row();
+    if (std::isnan(value)) {
+        row_->SetFieldNull(column);
+    } else {
+        row_->SetField(column, value);
+    }
+}
+
+void LayerWriter::set(Column column, std::int64_t value) {
+    begin_row();
+    row_->SetField(column, static_cast<GIntBig>(value));
+}
+
+void LayerWriter::set(Column column, const std::string& value) {
+    begin_row();
+    row_->SetField(column, value.c_str());
+}
+
+void LayerWriter::set(Column column, std::span<const std::byte> value) {
+    begin_row();
+    if (value.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        throw Error("cannot write " + file_ + ": a surface of more than 2 GiB; split it");
+    }
+    row_->SetField(column, static_cast<int>(value.size()), value.data());
+}
+
+void LayerWriter::set_point(const Vec3& position) {
+    begin_row();
+    if (!point_) {
+        auto point = std::make_unique<OGRPoint>();
+        point_ = point.get();
+        row_->SetGeometryDirectly(point.release());
+    }
+    *point_ = OGRPoint(position.x, position.y, position.z);
+}
+
+void LayerWriter::set_geometry(std::unique_ptr<OGRGeometry> geometry) {
+    begin_row();
+    row_->SetGeometryDirectly(geometry.release());
+}
+
+void LayerWriter::write() {
+    begin_row();
+    row_->SetFID(++row_number_);
+    if (layer_->CreateFeature(row_.get()) != OGRERR_NONE) {
+        throw Error("cannot write " + file_ + because(scope_));
+    }
+    for (Column column = 0; column < row_->GetFieldCount(); ++column) {
+        row_->SetFieldNull(column);
+    }
+}
+
+LayerReader::LayerReader(GDALDataset& dataset, GdalScope& scope, std::string file, const char* name)
+    : scope_(scope), file_(std::move(file)), name_(name), layer_(dataset.GetLayerByName(name)) {
+    if (!layer_) {
+        throw InputError(file_ + ": layer " + name_ + " is missing; this is no complete Terratet model");
+    }
+    layer_->ResetReading();
+}
+
+Column LayerReader::find(const std::string& name, OGRFieldType type) const {
+    const OGRFeatureDefn& definition = *layer_->GetLayerDefn();
+    const Column column = definition.GetFieldIndex(name.c_str());
+    const OGRFieldType found = column < 0 ? OFTMaxType : definition.GetFieldDefn(column)->GetType();
+    if (found != type && !(type == OFTInteger64 && found == OFTInteger)) {
+        throw InputError(file_ + ": layer " + name_ + " has no column " + name + " of type " +
+                         OGRFieldDefn::GetFieldTypeName(type) + "; it was changed or damaged");
+    }
+    return column;
+}
+
+bool LayerReader::next() {
+    scope_.clear();
+    const std::int64_t before = row_ ? row_->GetFID() : std::numeric_limits<std::int64_t>::min();
+    row_.reset(layer_->GetNextFeature());
+    if (scope_.failed()) {
+        throw InputError(file_ + ": layer " + name_ + " is damaged: " + scope_.failure());
+    }
+    if (row_ && row_->GetFID() <= before) {
+        fail("rows are out of order");
+    }
+    return row_ != nullptr;
+}
+
+double LayerReader::number_at(Column column) const {
+    return is_set(column) ? row_->GetFieldAsDouble(column) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double LayerReader::required_number_at(Column column) const {
+    if (!is_set(column)) {
+        fail(std::string("no value in column ") + row_->GetFieldDefnRef(column)->GetNameRef());
+    }
+    return row_->GetFieldAsDouble(column);
+}
+
+std::optional<std::int64_t> LayerReader::integer_at(Column column) const {
+    return is_set(column) ? std::optional<std::int64_t>(row_->GetFieldAsInteger64(column)) : std::nullopt;
+}
+
+std::int64_t LayerReader::required_integer_at(Column column) const {
+    if (!is_set(column)) {
+        fail(std::string("no value in column ") + row_->GetFieldDefnRef(column)->GetNameRef());
+    }
+    return row_->GetFieldAsInteger64(column);
+}
+
+std::optional<std::string> LayerReader::text_at(Column column) const {
+    return is_set(column) ? std::optional<std::string>(row_->GetFieldAsString(column)) : std::nullopt;
+}
+
+std::string LayerReader::required_text_at(Column column) const {
+    if (!is_set(column)) {
+        fail(std::string("no value in column ") + row_->GetFieldDefnRef(column)->GetNameRef());
+    }
+    return row_->GetFieldAsString(column);
+}
+
+std::span<const std::byte> LayerReader::bytes_at(Column column) const {
+    if (!is_set(column)) {
+        return {};
+    }
+    int size = 0;
+    const GByte* const bytes = row_->GetFieldAsBinary(column, &size);
+    return std::as_bytes(std::span(bytes, static_cast<std::size_t>(size)));
+}
+
+Vec3 LayerReader::point() const {
+    const OGRGeometry* const found = geometry();
+    if (!found || wkbFlatten(found->getGeometryType()) != wkbPoint || found->IsEmpty() || !found->Is3D()) {
+        fail("its geometry is no point with z");
+    }
+    const OGRPoint& p = *found->toPoint();
+    const Vec3 position{p.getX(), p.getY(), p.getZ()};
+    if (!is_acceptable(position)) {
+        fail("its coordinates are no numbers within 1e9");
+    }
+    return position;
+}
+
+void LayerReader::fail(const std::string& what) const {
+    throw InputError(file_ + ": layer " + name_ + ", row " + std::to_string(row_->GetFID()) + ": " + what);
+}
+
+}  // namespace terratet

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/model_meta.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "io/model_schema.hpp"
+#include "io/model_store.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+namespace {
+
+using nlohmann::json;
+
+// JSON has no infinities (an empty box is made of them) and no NaN.
+json number(double value) {
+    return std::isfinite(value) ? json(value) : std::isnan(value) ? json("nan") : json(value > 0 ? "inf" : "-inf");
+}
+
+double number(const json& value) {
+    if (value.is_number()) {
+        return value.get<double>();
+    }
+    const auto text = value.get<std::string>();
+    if (text == "inf" || text == "-inf") {
+        return text == "inf" ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+    }
+    if (text != "nan") {
+        throw json::other_error::create(501, "\"" + text + "\" is no number", nullptr);
+    }
+    return missing;
+}
+
+json vector(const Vec3& v) {
+    return json::array({number(v.x), number(v.y), number(v.z)});
+}
+Vec3 vector(const json& v) {
+    return {number(v.at(0)), number(v.at(1)), number(v.at(2))};
+}
+
+json box(const Box3& b) {
+    return {{"lo", vector(b.lo)}, {"hi", vector(b.hi)}};
+}
+Box3 box(const json& b) {
+    return {vector(b.at("lo")), vector(b.at("hi"))};
+}
+
+json frame_json(const Frame& frame) {
+    return {{"crs_wkt", frame.crs_wkt},
+            {"crs_name", frame.crs_name},
+            {"unit", frame.unit},
+            {"metres_per_unit", number(frame.metres_per_unit)},
+            {"origin", vector(frame.origin)}};
+}
+
+Frame frame_of(const json& j) {
+    return {j.at("crs_wkt").get<std::string>(), j.at("crs_name").get<std::string>(), j.at("unit").get<std::string>(),
+            number(j.at("metres_per_unit")), vector(j.at("origin"))};
+}
+
+json properties_json(const std::vector<Property>& properties, const std::vector<std::string>& columns) {
+    json result = json::array();
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+        const Property& p = properties[i];
+        result.push_back({{"name", p.name},
+                          {"column", columns[i]},
+                          {"unit", p.unit},
+                          {"scale", p.scale == Scale::log10 ? "log10" : "linear"},
+                          {"kind", p.kind == Kind::categorical ? "categorical" : "continuous"},
+                          {"classes", p.classes}});
+    }
+    return result;
+}
+
+/// One of two words.
+bool is_second(const json& j, const char* first, const char* second) {
+    const auto word = j.get<std::string>();
+    if (word != first && word != second) {
+        throw json::other_error::create(501, "\"" + word + "\" is neither " + first + " nor " + second, nullptr);
+    }
+    return word == second;
+}
+
+Property property_of(const json& j) {
+    Property p;
+    p.name = j.at("name").get<std::string>();
+    p.unit = j.at("unit").get<std::string>();
+    p.scale = is_second(j.at("scale"), "linear", "log10") ? Scale::log10 : Scale::linear;
+    p.kind = is_second(j.at("kind"), "continuous", "categorical") ? Kind::categorical : Kind::continuous;
+    p.classes = j.at("classes").get<std::vector<std::string>>();
+    return p;
+}
+
+json criteria_json(const Criteria& c) {
+    json variation = json::array();
+    for (const VariationLimits& limits : c.variation) {
+        variation.push_back({{"df_min", number(limits.df_min)}, {"df_max", number(limits.df_max)}});
+    }
+    return {{"l_min", number(c.l_min)},
+            {"l_max", number(c.l_max)},
+            {"radius_edge", number(c.radius_edge)},
+            {"aspect", number(c.aspect)},
+            {"v_min", number(c.v_min)},
+            {"v_max", number(c.v_max)},
+            {"dihedral_deg", number(c.dihedral_deg)},
+            {"variation", variation}};
+}
+
+Criteria criteria_of(const json& j) {
+    Criteria c;
+    c.l_min = number(j.at("l_min"));
+    c.l_max = number(j.at("l_max"));
+    c.radius_edge = number(j.at("radius_edge"));
+    c.aspect = number(j.at("aspect"));
+    c.v_min = number(j.at("v_min"));
+    c.v_max = number(j.at("v_max"));
+    c.dihedral_deg = number(j.at("dihedral_deg"));
+    for (const json& limits : j.at("variation")) {
+        c.variation.push_back({number(limits.at("df_min")), number(limits.at("df_max"))});
+    }
+    return c;
+}
+
+json fault_options_json(const FaultOptions& o) {
+    return {{"spacing", number(o.spacing)},
+            {"width", number(o.width)},
+            {"snap", number(o.snap)},
+            {"max_seeds", o.max_seeds}};
+}
+
+FaultOptions fault_options_of(const json& j) {
+    return {number(j.at("spacing")), number(j.at("width")), number(j.at("snap")),
+            j.at("max_seeds").get<std::uint64_t>()};
+}
+
+json counts_json(const RowCounts& c) {
+    return {{schema::samples, c.samples},
+            {schema::boreholes, c.boreholes},
+            {schema::surfaces, c.surfaces},
+            {schema::vertices, c.vertices}};
+}
+
+RowCounts counts_of(const json& j) {
+    return {j.at(schema::samples).get<std::size_t>(), j.at(schema::boreholes).get<std::size_t>(),
+            j.at(schema::surfaces).get<std::size_t>(), j.at(schema::vertices).get<std::size_t>()};
+}
+
+/// Names a database knows already, in lower case.
+const std::set<std::string>& reserved_columns() {
+    static const std::set<std::string> names = {
+        "fid",   "geom", "id",      "borehole", "hole",     "depth", "length", "role", "owner", "side", "extrapolation",
+        "rowid", "oid",  "_rowid_", "ogc_fid",  "tableoid", "xmin",  "cmin",   "xmax", "cmax",  "ctid"};
+    return names;
+}
+
+std::string ascii_lower(std::string text) {
+    for (char& c : text) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return text;
+}
+
+/// Without what needs quoting twice somewhere, and short enough for PostgreSQL with a number behind.
+std::string fit_column(const std::string& name) {
+    constexpr std::size_t longest = 50;
+    std::string result = name.substr(0, longest);
+    while (!result.empty() && name.size() > longest &&
+           (static_cast<unsigned char>(name[result.size()]) & 0xC0) == 0x80) {
+        result.pop_back();  // no half characters
+    }
+    for (char& c : result) {
+        const bool odd = static_cast<unsigned char>(c) < ' ' || c == 0x7F ||
+                         std::string_view("\"'`\\;%").find(c) != std::string_view::npos;
+        c = odd ? '_' : c;
+    }
+    const std::size_t first = result.find_first_not_of(' ');
+    return first == std::string::npos ? "property" : result.substr(first, result.find_last_not_of(' ') - first + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> schema::property_columns(const std::vector<Property>& properties) {
+    std::set<std::string> taken = reserved_columns();
+    std::vector<std::string> columns;
+    for (const Property& property : properties) {
+        const std::string fit = fit_column(property.name);
+        std::string column = fit;
+        for (int n = 2; !taken.insert(ascii_lower(column)).second; ++n) {
+            column = fit + "_" + std::to_string(n);
+        }
+        columns.push_back(column);
+    }
+    return columns;
+}
+
+RowCounts row_counts(const Model& model) {
+    return {model.samples.size(), model.boreholes.size(), model.surfaces.size() + 2 * model.faults.size(),
+            model.vertices.size()};
+}
+
+Meta to_meta(const Model& model, const std::vector<std::string>& property_columns) {
+    return {{"format_version", std::to_string(schema::format_version)},
+            {"frame", frame_json(model.frame).dump()},
+            {"properties", properties_json(model.properties, property_columns).dump()},
+            {"criteria", criteria_json(model.criteria).dump()},
+            {"density", model.density == DensityMode::paper ? "paper" : "canonical"},
+            {"fault_options", fault_options_json(model.fault_options).dump()},
+            {"domain", json{{"extent", box(model.domain.extent)}, {"hull", box(model.domain.hull)}}.dump()},
+            {"estimator", model.estimator},
+            {"counts", counts_json(row_counts(model)).dump()},
+            {"digest", model_digest(model)}};
+}
+
+MetaContent from_meta(const Meta& meta, const std::string& file) {
+    const auto value = [&](const char* key) -> const std::string& {
+        const auto found = meta.find(key);
+        if (found == meta.end()) {
+            throw InputError(file + ": layer " + schema::meta + ": no key " + key +
+                             "; this is no complete Terratet model");
+        }
+        return found->second;
+    };
+    const std::string& version = value("format_version");
+    if (version != std::to_string(schema::format_version)) {
+        throw InputError(file + ": has model format " + version + ", this program reads format " +
+                         std::to_string(schema::format_version) +
+                         "; use the version of Terratet that wrote it, or a newer one");
+    }
+    MetaContent content;
+    const char* key = "";
+    const auto parsed = [&](const char* name) {
+        key = name;
+        return json::parse(value(name));
+    };
+    try {
+        content.model.frame = frame_of(parsed("frame"));
+        for (const json& property : parsed("properties")) {
+            content.model.properties.push_back(property_of(property));
+            content.property_columns.push_back(property.at("column").get<std::string>());
+        }
+        content.model.criteria = criteria_of(parsed("criteria"));
+        content.model.fault_options = fault_options_of(parsed("fault_options"));
+        const json domain = parsed("domain");
+        content.model.domain = {box(domain.at("extent")), box(domain.at("hull"))};
+        content.counts = counts_of(parsed("counts"));
+        key = "density";
+        content.model.density =
+            is_second(json(value("density")), "canonical", "paper") ? DensityMode::paper : DensityMode::canonical;
+    } catch (const json::exception& error) {
+        throw InputError(file + ": layer " + schema::meta + ", key " + key + " is damaged: " + error.what());
+    }
+    if (!is_finite(content.model.frame.origin)) {
+        throw InputError(file + ": layer " + schema::meta + ", key frame: the origin is no number");
+    }
+    content.model.estimator = value("estimator");
+    const auto digest = meta.find("digest");
+    content.digest = digest == meta.end() ? "" : digest->second;
+    return content;
+}
+
+bool is_storable(const std::string& text) {
+    if (text.find('\0') != std::string::npos) {
+        return false;
+    }
+    try {
+        return !json(text).dump().empty();
+    } catch (const json::type_error&) {  // not UTF-8
+        return false;
+    }
+}
+
+}  // namespace terratet

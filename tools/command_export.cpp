@@ -38,9 +38,10 @@ class Export final : public Command {
         RunRecord record;
         record.model = &model;
         const Stopwatch writing;
+        const Meshed meshed = mesh_model(model, false);
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
-            record.outputs = write_outputs(model, outputs, exporting_, run_, {}, display.callback());
+            record.outputs = write_outputs(model, &meshed, outputs, exporting_, run_, {}, display.callback());
         }
         record.write_seconds = writing.seconds();
         record.total_seconds = total.seconds();

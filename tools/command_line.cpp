@@ -90,7 +90,7 @@ Values sort_arguments(const Syntax& syntax, const std::vector<std::string>& argu
     });
     std::vector<std::string> rest;
     if (syntax.positional.max > 0) {
-        app.add_option(syntax.positional.name, rest)->expected(0, syntax.positional.max);
+        app.add_option(syntax.positional.name, rest);
     }
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
@@ -109,6 +109,9 @@ Values sort_arguments(const Syntax& syntax, const std::vector<std::string>& argu
     if (static_cast<int>(rest.size()) < syntax.positional.min) {
         throw UsageError(
             fmt::format("{} is missing; usage: 'terratet help {}'", syntax.positional.name, syntax.command));
+    }
+    if (static_cast<int>(rest.size()) > syntax.positional.max) {
+        refuse_extra(syntax, rest[static_cast<std::size_t>(syntax.positional.max)]);
     }
     if (syntax.positional.target != nullptr) {
         *syntax.positional.target = rest;

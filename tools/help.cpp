@@ -20,50 +20,51 @@ struct Topic {
 
 constexpr std::array topics{
     Topic{"estimators", "how values reach new vertices",
-          R"(Values at new vertices and voxels come from the samples as measured, dropped ones
-included, and never from across a fault.
+          R"(Values at new vertices and voxels come from the samples as measured, dropped
+ones included, and never from across a fault.
 
-  natural   (default) Sibson's natural neighbours: smooth, honours the samples, adapts
-            to their density without parameters
+  natural   (default) Sibson's natural neighbours: smooth, honours the samples,
+            adapts to their density without parameters
   idw       inverse distance: idw[:power=2][:radius=R][:max_points=12]
   nearest   the nearest sample that no fault hides; the one for a quick look
 
 A property named with :log10 is estimated as its decimal logarithm, one with
-:categorical gets the class of the largest weight. Beyond the samples' reach the
-column 'extrapolation' rises from 0 to 1; where faults hide every sample there is
-no value.
+:categorical gets the class of the largest weight. Beyond the samples' reach
+the column 'extrapolation' rises from 0 to 1; where faults hide every sample
+there is no value.
 )"},
     Topic{"formats", "what is read and written",
           R"(Read
   tables      CSV, XLSX, GeoPackage, Shapefile, PostGIS …: anything GDAL opens.
-              Columns are found by the usual names (HOLEID, EAST, FROM, …) or named
-              with --columns. /vsizip/, /vsicurl/ and /vsistdin/ paths work.
-  faults      GOCAD TSurf (.ts); TIN, PolyhedralSurface or MultiPolygon Z layers;
-              tables of points x, y, z, fault
-  one input may carry its layer and CRS:  'wells.gpkg,layer=collar,srs=EPSG:26912'
+              Columns are found by the usual names (HOLEID, EAST, FROM, …) or
+              named with --columns. /vsizip/, /vsicurl/, /vsistdin/ work.
+  faults      GOCAD TSurf (.ts); TIN, PolyhedralSurface or MultiPolygon Z
+              layers; tables of points x, y, z, fault
+  One input may carry its layer and CRS: 'wells.gpkg,layer=collar,srs=EPSG:3067'
 
 Write
   .gpkg       the model: a GeoPackage that QGIS opens (build -o; also convert)
   .vtu        ParaView and other VTK readers: tetrahedra, true coordinates
   .glb .gltf  3D scenes for the web and for Blender: local coordinates, Y up
-  .vdb        OpenVDB voxels, one grid a property: Houdini, Blender, openvdb tools
+  .vdb        OpenVDB voxels, one grid a property: Houdini, Blender
   .csv        vertices with their values
 docs/outputs.md says what each file contains.
 )"},
     Topic{"exit-codes", "what a script can rely on",
           R"(0   done
-1   failed while running: a disk full, a bound exceeded, interrupted; for check, a
-    guarantee that does not hold
+1   failed while running: a disk full, a bound exceeded, interrupted; for
+    check, a guarantee that does not hold
 2   usage: an unknown option, options that contradict each other
 3   the input data cannot be used
 4   done, but criteria stay unmet and --strict was given
 
-An error is one line on standard error that begins with 'terratet: '. Outputs appear
-whole or not at all.
+An error is one line on standard error that begins with 'terratet: '. Outputs
+appear whole or not at all.
 )"},
     Topic{"report", "the keys of --report FILE.json",
           R"(terratet        version
-input           boreholes, samples, faults; rejected: [{file, line, reason}]; notes
+input           boreholes, samples, faults; rejected: [{file, line, reason}];
+                notes
 frame           crs, unit, origin [x, y, z]
 defaults        what was chosen because it was not given
 preprocess      samples_kept, samples_deleted, samples_near_faults, seeds,
@@ -71,17 +72,19 @@ preprocess      samples_kept, samples_deleted, samples_near_faults, seeds,
 faults          per input surface: name, used, reason, seeds, areas
 initial         vertices, tetrahedra, skinny_percent, flat_percent, bad_percent
 refine          inserted, moved, removed, bound, skipped {reason: cells}
-final           vertices, tetrahedra, gap_tetrahedra, bad_percent, dihedral_deg
-                {min, p1, p5, median}, edge_m {min, max}, fault_crossing_edges,
-                delaunay, regions
+final           vertices, tetrahedra, gap_tetrahedra, skinny_percent,
+                flat_percent, bad_percent, dihedral_deg {min, p1, p5, median},
+                edge_m {min, max}, fault_crossing_edges, delaunay, regions,
+                below {dihedral, vmin}
 fidelity        per property: rms, max, count, against all samples
 estimator       name, options, fallbacks
 outputs         [{path, bytes}]
 seconds         read, density, boundary, refine, estimate, write, total
 peak_memory_bytes
 
-skinny: R/l above --radius-edge; flat: not skinny and R/r above --aspect; bad: breaks
-any criterion. Percentages are of the cells inside the extent, gaps left out.
+skinny: R/l above --radius-edge; flat: not skinny and R/r above --aspect; bad:
+breaks any criterion. Percentages are of the cells inside the extent, gaps left
+out. docs/report.md explains each key.
 )"},
 };
 
@@ -122,7 +125,7 @@ std::string command_help(const CommandEntry& entry) {
 std::string general_help() {
     std::string out =
         "Usage: terratet COMMAND …\n\n"
-        "From borehole logs and faults to an adaptive Delaunay tessellation of the ground.\n\nCommands:\n";
+        "From borehole logs and faults to an adaptive Delaunay tessellation of the\nground.\n\nCommands:\n";
     for (const auto& entry : commands()) {
         out += fmt::format("  {:10}{}\n", entry.name, entry.summary);
     }
@@ -131,7 +134,8 @@ std::string general_help() {
         out += fmt::format("    {:12}{}\n", topic.name, topic.summary);
     }
     return out +
-           "\nOptions:\n  --version   print the version\n  --help      after a command: its options and examples\n";
+           "\nOptions:\n  --version   print the version\n  --help      after a command: its options and examples\n"
+           "\nOne dash will do, as in GDAL: -t_srs is --t_srs.\n";
 }
 
 std::string help_on(const std::string& subject) {

@@ -87,15 +87,19 @@ void check_outputs(const std::vector<std::string>& paths, const std::vector<std:
     }
 }
 
-std::vector<OutputRecord> write_outputs(const Model& model, const std::vector<std::string>& paths,
+Meshed mesh_model(const Model& model, bool verify_delaunay) {
+    const Tessellation tessellation = tessellate(model);
+    Meshed meshed{tessellation.mesh(), {}, verify_delaunay && tessellation.is_delaunay()};
+    meshed.cells = describe_cells(model, meshed.mesh);
+    return meshed;
+}
+
+std::vector<OutputRecord> write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
                                         const ExportArguments& arguments, const RunArguments& run,
                                         const JournalEntry& entry, const Progress& progress) {
     ExportOptions options = writer_options(arguments, model);
     options.overwrite = run.overwrite;
     options.progress = progress;
-    const TetMesh mesh = tessellate(model).mesh();
-    const CellTable cells = describe_cells(model, mesh);
-    const ModelView view{model, mesh, cells};
     std::vector<OutputRecord> written;
     for (const auto& path : paths) {
         try {
@@ -106,7 +110,7 @@ std::vector<OutputRecord> write_outputs(const Model& model, const std::vector<st
                 const auto bytes = fs::file_size(path, no_file);
                 written.push_back({path, no_file ? 0 : bytes});
             } else {
-                written.push_back(export_model(view, path, options));
+                written.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
             }
         } catch (...) {
             rethrow_naming(written);

@@ -24,9 +24,17 @@ bool names_model(const std::string& path);
 void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
                    const ExportArguments& arguments, const RunArguments& run);
 
+/// What all outputs but a model are made from.
+struct Meshed {
+    TetMesh mesh;
+    CellTable cells;
+    bool delaunay = false;  ///< verified with exact predicates, about 10 µs a cell; only if asked for
+};
+Meshed mesh_model(const Model& model, bool verify_delaunay);
+
 /// Writes all of `paths`: models through `entry`, the rest through their writers. An error names what was written
-/// before.
-std::vector<OutputRecord> write_outputs(const Model& model, const std::vector<std::string>& paths,
+/// before. \pre `meshed` is there unless all paths name models.
+std::vector<OutputRecord> write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
                                         const ExportArguments& arguments, const RunArguments& run,
                                         const JournalEntry& entry, const Progress& progress);
 

@@ -9,6 +9,7 @@
 
 #include "io/output_file.hpp"
 #include "tess/error.hpp"
+#include "tess/quality.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
@@ -81,6 +82,24 @@ Json refine_json(const RefineReport& report) {
     return {{"inserted", report.inserted}, {"moved", 0}, {"removed", 0}, {"bound", report.bound}, {"skipped", skipped}};
 }
 
+/// Cells that break a clean-up criterion, which insertion cannot repair: counted so that they are known.
+Json clean_up_json(const Model& model, const Meshed& meshed) {
+    std::size_t below_dihedral = 0;
+    std::size_t below_v_min = 0;
+    for (std::size_t c = 0; c < meshed.mesh.cells.size(); ++c) {
+        if (meshed.cells.region[c] < 0) {
+            continue;
+        }
+        const auto& corners = meshed.mesh.cells[c];
+        const auto& points = meshed.mesh.points;
+        const CellQuality quality =
+            cell_quality({points[corners[0]], points[corners[1]], points[corners[2]], points[corners[3]]});
+        below_dihedral += quality.dihedral_min_deg < model.criteria.dihedral_deg ? 1 : 0;
+        below_v_min += quality.volume < model.criteria.v_min ? 1 : 0;
+    }
+    return {{"dihedral", below_dihedral}, {"vmin", below_v_min}};
+}
+
 Json final_json(const RunRecord& record) {
     const CellStatistics& cells = record.build->report.final;
     const double metres = record.model->frame.metres_per_unit;
@@ -97,8 +116,9 @@ Json final_json(const RunRecord& record) {
               {"median", cells.dihedral_median_deg}}},
             {"edge_m", {{"min", cells.edge_min * metres}, {"max", cells.edge_max * metres}}},
             {"fault_crossing_edges", record.build->report.fault_crossing_edges},
-            {"delaunay", tessellate(*record.model).is_delaunay()},
-            {"regions", cells.regions}};
+            {"delaunay", record.meshed->delaunay},
+            {"regions", cells.regions},
+            {"below", clean_up_json(*record.model, *record.meshed)}};
 }
 
 Json fidelity_json(const RunRecord& record) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/export.hpp"
+#include "tools/outputs.hpp"
 #include "tools/pipeline.hpp"
 
 namespace terratet::tools {
@@ -16,12 +17,13 @@ namespace terratet::tools {
 struct RunRecord {
     const Model* model = nullptr;
     const BuildRecord* build = nullptr;  ///< null: the model was there already
+    const Meshed* meshed = nullptr;      ///< with `delaunay` verified, when there is a build to report
     std::vector<OutputRecord> outputs;
     double write_seconds = 0;
     double total_seconds = 0;
 };
 
-/// JSON with the keys of docs/report.md in their order. Verifies that the model is Delaunay, about 10 µs a cell.
+/// JSON with the keys of docs/report.md in their order.
 std::string report_text(const RunRecord& record);
 
 /// A few lines with everything a person checks first.

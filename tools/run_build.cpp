@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/run_build.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include <spdlog/spdlog.h>
 
 #include "tools/progress_display.hpp"
@@ -31,16 +34,22 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
     BuildRecord build;
     RunRecord record;
     Model model;
+    std::optional<Meshed> meshed;
     {
         ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
         const Progress progress = display.callback();
         model = read_and_build(a.site, a.model, a.run, progress, build);
         const Stopwatch writing;
-        record.outputs = write_outputs(model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);
+        if (!a.run.report.empty() || !std::all_of(a.outputs.begin(), a.outputs.end(), names_model)) {
+            meshed = mesh_model(model, !a.run.report.empty());
+        }
+        record.outputs = write_outputs(model, meshed ? &*meshed : nullptr, a.outputs, a.exporting, a.run,
+                                       journal_entry(command, given), progress);
         record.write_seconds = writing.seconds();
     }
     record.model = &model;
     record.build = &build;
+    record.meshed = meshed ? &*meshed : nullptr;
     record.total_seconds = total.seconds();
     write_report(record, a.run);
     spdlog::info("{}", summary_text(record));

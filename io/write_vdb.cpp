@@ -1,2 +1,177 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One FloatGrid a property: the tessellation's linear field at the voxels' centres. Voxels without a value are
+/// inactive.
+
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "interp/resample.hpp"
+#include "io/column_names.hpp"
+#include "io/export.hpp"
+#include "io/output_file.hpp"
+#include "io/vdb_identity.hpp"
+
+namespace terratet {
+namespace {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+/// Of voxels outside; inactive, so only tools that ignore the active mask see it.
+constexpr float background = 0;
+
+/// Makes the leaves of each tile and keeps those that have an active voxel.
+class LeafSink final : public TileSink {
+  public:
+    void tile(const Tile& tile) override {
+        std::vector<std::unique_ptr<Leaf>> leaves;
+        constexpr int step = static_cast<int>(Leaf::DIM);
+        for (int x = 0; x < Tile::edge; x += step) {
+            for (int y = 0; y < Tile::edge; y += step) {
+                for (int z = 0; z < Tile::edge; z += step) {
+                    if (auto leaf = make_leaf(tile, x, y, z)) {
+                        leaves.push_back(std::move(leaf));
+                    }
+                }
+            }
+        }
+        const std::lock_guard lock(mutex_);
+        std::move(leaves.begin(), leaves.end(), std::back_inserter(leaves_));
+    }
+
+    /// The tiles come in any order; the tree is built in one.
+    openvdb::FloatGrid::Ptr take_grid() {
+        std::sort(leaves_.begin(), leaves_.end(),
+                  [](const auto& a, const auto& b) { return a->origin() < b->origin(); });
+        auto grid = openvdb::FloatGrid::create(background);
+        for (auto& leaf : leaves_) {
+            grid->tree().addLeaf(leaf.release());
+        }
+        leaves_.clear();
+        return grid;
+    }
+
+  private:
+    static std::unique_ptr<Leaf> make_leaf(const Tile& tile, int x, int y, int z) {
+        const openvdb::Coord origin(static_cast<int>(tile.lo[0]) + x, static_cast<int>(tile.lo[1]) + y,
+                                    static_cast<int>(tile.lo[2]) + z);
+        std::unique_ptr<Leaf> leaf;
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                const float* row =
+                    tile.values.data() +
+                    (static_cast<std::size_t>(x + i) * Tile::edge + static_cast<std::size_t>(y + j)) * Tile::edge + z;
+                for (int k = 0; k < 8; ++k) {
+                    if (!std::isnan(row[k])) {
+                        if (!leaf) {
+                            leaf = std::make_unique<Leaf>(origin, background, false);
+                        }
+                        leaf->setValueOn(static_cast<openvdb::Index>(i * 64 + j * 8 + k), row[k]);
+                    }
+                }
+            }
+        }
+        return leaf;
+    }
+
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Leaf>> leaves_;
+};
+
+/// Index (i,j,k), a voxel's centre, to true or frame-local coordinates.
+openvdb::math::Transform::Ptr make_transform(const Lattice& lattice, const Vec3& shift) {
+    const Vec3 o = lattice.origin + shift;
+    const Vec3& s = lattice.spacing;
+    return openvdb::math::Transform::createLinearTransform(
+        openvdb::Mat4R(s.x, 0., 0., 0., 0., s.y, 0., 0., 0., 0., s.z, 0., o.x, o.y, o.z, 1.));
+}
+
+void describe(openvdb::MetaMap& meta, const Frame& frame, bool local_origin) {
+    const Vec3 origin = local_origin ? frame.origin : Vec3{};
+    meta.insertMeta("crs", openvdb::StringMetadata(frame.crs_wkt));
+    meta.insertMeta("length_unit", openvdb::StringMetadata(frame.unit));
+    meta.insertMeta("metres_per_unit", openvdb::DoubleMetadata(frame.metres_per_unit));
+    meta.insertMeta("origin", openvdb::Vec3DMetadata(openvdb::Vec3d(origin.x, origin.y, origin.z)));
+}
+
+void describe(openvdb::MetaMap& meta, const Property& property) {
+    const bool categorical = property.kind == Kind::categorical;
+    meta.insertMeta("unit", openvdb::StringMetadata(property.unit));
+    meta.insertMeta("scale", openvdb::StringMetadata(categorical                      ? "categorical"
+                                                     : property.scale == Scale::log10 ? "log10"
+                                                                                      : "linear"));
+    if (categorical) {
+        std::string classes;
+        for (const std::string& name : property.classes) {
+            classes += (classes.empty() ? "" : "\n") + name;
+        }
+        meta.insertMeta("classes", openvdb::StringMetadata(classes));
+    }
+}
+
+openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const Lattice& lattice,
+                                  const Progress& progress) {
+    const Property& property = view.model.properties[p];
+    std::vector<double> scaled = view.model.vertex_values.values[p];
+    for (double& value : scaled) {
+        value = to_scale(property, value);
+    }
+    LinearField field{&view.mesh, scaled};
+    field.vertices = view.model.vertices;
+    field.log10 = property.scale == Scale::log10;
+    field.categorical = property.kind == Kind::categorical;
+    LeafSink sink;
+    resample(field, lattice, sink, progress);
+    return sink.take_grid();
+}
+
+std::uint32_t compression() {
+    return openvdb::io::COMPRESS_ACTIVE_MASK |
+           (openvdb::io::Archive::hasBloscCompression()  ? openvdb::io::COMPRESS_BLOSC
+            : openvdb::io::Archive::hasZLibCompression() ? openvdb::io::COMPRESS_ZIP
+                                                         : openvdb::io::COMPRESS_NONE);
+}
+
+}  // namespace
+
+OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options) {
+    OutputFile file(path, options.overwrite);
+    file.close();
+    openvdb::initialize();
+    const Model& model = view.model;
+    const Lattice lattice = lattice_over(model.domain.extent, resolved_voxel_size(view, options));
+    std::vector<std::string> names;
+    for (const Property& property : model.properties) {
+        names.push_back(property.name);
+    }
+    names = distinct_names(std::move(names), {});
+
+    openvdb::GridPtrVec grids;
+    for (std::size_t p = 0; p < names.size(); ++p) {
+        const auto grid = make_grid(view, p, lattice, options.progress);
+        grid->setName(names[p]);
+        grid->setTransform(make_transform(lattice, options.local_origin ? Vec3{} : model.frame.origin));
+        describe(*grid, model.frame, options.local_origin);
+        describe(*grid, model.properties[p]);
+        grids.push_back(grid);
+    }
+    openvdb::MetaMap meta;
+    describe(meta, model.frame, options.local_origin);
+    try {
+        openvdb::io::File vdb(file.temporary_path());
+        vdb.setCompression(compression());
+        vdb.write(grids, meta);
+        vdb.close();
+    } catch (const openvdb::Exception& error) {
+        throw Error("cannot write " + path + ": " + error.what());
+    }
+    make_vdb_identity_reproducible(file.temporary_path());
+    return {path, file.commit()};
+}
+
+}  // namespace terratet

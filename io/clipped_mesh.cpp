@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/clipped_mesh.hpp"
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace terratet {
+namespace {
+
+using Tet = std::array<std::uint32_t, 4>;
+using Fate = ClippedMesh::Fate;
+
+/// One side of the extent; what is inside has a distance ≥ 0.
+struct Plane {
+    int axis;
+    double position;
+    double inwards;  ///< +1 or −1
+
+    [[nodiscard]] double distance(const Vec3& p) const { return inwards * (p[axis] - position); }
+};
+
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return dot(cross(b - a, c - a), d - a);
+}
+
+class Clipper {
+  public:
+    explicit Clipper(const ModelView& view) : view_(view) {
+        const Box3& extent = view.model.domain.extent;
+        for (int axis = 0; axis < 3; ++axis) {
+            planes_.push_back({axis, extent.lo[axis], 1});
+            planes_.push_back({axis, extent.hi[axis], -1});
+        }
+        on_plane_ = 1e-12 * extent.diagonal();
+        points_ = view.mesh.points;
+    }
+
+    ClippedMesh run() {
+        const std::size_t n = view_.mesh.cells.size();
+        result_.fate.assign(n, Fate::dropped);
+        for (std::size_t c = 0; c < n; ++c) {
+            clip(static_cast<std::uint32_t>(c));
+        }
+        label_regions();
+        compact();
+        return std::move(result_);
+    }
+
+  private:
+    void clip(std::uint32_t cell) {
+        pieces_.assign(1, view_.mesh.cells[cell]);
+        bool touched = false;
+        for (const Plane& plane : planes_) {
+            next_.clear();
+            for (const Tet& piece : pieces_) {
+                touched |= cut(piece, plane);
+            }
+            std::swap(pieces_, next_);
+        }
+        if (pieces_.empty()) {
+            return;
+        }
+        result_.fate[cell] = touched ? Fate::cut : Fate::whole;
+        for (const Tet& piece : pieces_) {
+            result_.cells.push_back(piece);
+            result_.parent.push_back(cell);
+        }
+    }
+
+    /// Appends to next_ what of the piece is inside; true unless all of it.
+    bool cut(const Tet& piece, const Plane& plane) {
+        std::array<std::uint32_t, 4> in;
+        std::array<std::uint32_t, 4> on;
+        std::array<std::uint32_t, 4> out;
+        std::size_t n_in = 0;
+        std::size_t n_on = 0;
+        std::size_t n_out = 0;
+        for (const std::uint32_t v : piece) {
+            const double d = plane.distance(points_[v]);
+            (std::abs(d) <= on_plane_ ? on[n_on++] : d > 0 ? in[n_in++] : out[n_out++]) = v;
+        }
+        if (n_in == 0) {
+            return true;
+        }
+        if (n_out == 0) {
+            next_.push_back(piece);
+            return false;
+        }
+        const auto on_edge = [&](std::size_t i, std::size_t o) { return cut_point(in[i], out[o], plane); };
+        if (n_in == 1) {
+            Tet tip{in[0]};
+            std::size_t corner = 1;
+            for (std::size_t k = 0; k < n_on; ++k) {
+                tip[corner++] = on[k];
+            }
+            for (std::size_t k = 0; k < n_out; ++k) {
+                tip[corner++] = on_edge(0, k);
+            }
+            add(tip);
+        } else if (n_in == 2 && n_out == 2) {
+            add_prism({in[0], on_edge(0, 0), on_edge(0, 1)}, {in[1], on_edge(1, 0), on_edge(1, 1)});
+        } else if (n_in == 2) {
+            add_pyramid(on[0], {in[0], in[1], on_edge(1, 0), on_edge(0, 0)});
+        } else {
+            add_prism({in[0], in[1], in[2]}, {on_edge(0, 0), on_edge(1, 0), on_edge(2, 0)});
+        }
+        return true;
+    }
+
+    /// The point where the edge meets the plane: the same one for every cell round the edge.
+    std::uint32_t cut_point(std::uint32_t u, std::uint32_t v, const Plane& plane) {
+        const auto [a, b] = std::pair(std::min(u, v), std::max(u, v));
+        const auto [entry, fresh] = cut_of_edge_.try_emplace(std::uint64_t{a} << 32 | b, points_.size());
+        if (fresh) {
+            const double da = plane.distance(points_[a]);
+            const double db = plane.distance(points_[b]);
+            const double t = da / (da - db);
+            Vec3 p = points_[a] + t * (points_[b] - points_[a]);
+            p[plane.axis] = plane.position;
+            points_.push_back(p);
+            result_.cuts.push_back({a, b, t});
+        }
+        return static_cast<std::uint32_t>(entry->second);
+    }
+
+    void add(Tet tet) {
+        const double volume = six_volumes(points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]);
+        if (volume < 0) {
+            std::swap(tet[2], tet[3]);
+        }
+        if (volume != 0) {
+            next_.push_back(tet);
+        }
+    }
+
+    /// Corners of the quadrilateral in order round it.
+    void add_pyramid(std::uint32_t apex, const std::array<std::uint32_t, 4>& quad) {
+        const std::size_t first = static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
+        const auto q = [&](std::size_t k) { return quad[(first + k) % 4]; };
+        add({apex, q(0), q(1), q(2)});
+        add({apex, q(0), q(2), q(3)});
+    }
+
+    /// Edges lead from each corner of one triangle to the same one of the other.
+    void add_prism(std::array<std::uint32_t, 3> a, std::array<std::uint32_t, 3> b) {
+        const auto smallest = [](const auto& t) { return std::min_element(t.begin(), t.end()); };
+        if (*smallest(b) < *smallest(a)) {
+            std::swap(a, b);
+        }
+        const auto first = static_cast<std::size_t>(smallest(a) - a.begin());
+        const std::size_t second = (first + 1) % 3;
+        const std::size_t third = (first + 2) % 3;
+        add({a[first], b[first], b[second], b[third]});
+        add_pyramid(a[first], {a[second], a[third], b[third], b[second]});
+    }
+
+    /// Cells whose centroid is outside have no region; what of them is inside continues a neighbour's.
+    void label_regions() {
+        std::vector<std::int32_t> region = view_.cells.region;
+        std::vector<std::uint32_t> front;
+        for (std::uint32_t c = 0; c < region.size(); ++c) {
+            if (region[c] >= 0) {
+                front.push_back(c);
+            }
+        }
+        std::vector<std::uint32_t> reached;
+        while (!front.empty()) {
+            reached.clear();
+            for (const std::uint32_t c : front) {
+                for (const std::int32_t neighbour : view_.mesh.neighbours[c]) {
+                    const auto n = static_cast<std::size_t>(neighbour);
+                    if (neighbour >= 0 && region[n] < 0 && view_.cells.fault[n] < 0 &&
+                        result_.fate[n] != Fate::dropped) {
+                        region[n] = region[c];
+                        reached.push_back(static_cast<std::uint32_t>(n));
+                    }
+                }
+            }
+            std::swap(front, reached);
+        }
+        for (const std::uint32_t cell : result_.parent) {
+            result_.region.push_back(region[cell]);
+        }
+    }
+
+    /// Leaves out the vertices outside and the cuts that later cuts took the place of.
+    void compact() {
+        constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+        std::vector<std::uint32_t> index(points_.size(), unused);
+        for (const Tet& cell : result_.cells) {
+            for (const std::uint32_t v : cell) {
+                index[v] = 0;
+            }
+        }
+        for (std::uint32_t place = 0; place < points_.size(); ++place) {
+            if (index[place] != unused) {
+                index[place] = static_cast<std::uint32_t>(result_.points.size());
+                result_.points.push_back(points_[place]);
+                result_.place.push_back(place);
+            }
+        }
+        for (Tet& cell : result_.cells) {
+            for (std::uint32_t& v : cell) {
+                v = index[v];
+            }
+        }
+    }
+
+    const ModelView& view_;
+    std::vector<Plane> planes_;
+    double on_plane_ = 0;
+    std::vector<Vec3> points_;
+    std::unordered_map<std::uint64_t, std::size_t> cut_of_edge_;
+    std::vector<Tet> pieces_;
+    std::vector<Tet> next_;
+    ClippedMesh result_;
+};
+
+/// Vertices of all places. A cut keeps the role and side that its ends share; one across a fault takes its nearer
+/// end's.
+std::vector<Vertex> place_vertices(const ClippedMesh& mesh, const Model& model) {
+    std::vector<Vertex> vertices = model.vertices;
+    for (const auto& [a, b, t] : mesh.cuts) {
+        const Vertex& near = vertices[t <= 0.5 ? a : b];
+        const Vertex& far = vertices[t <= 0.5 ? b : a];
+        const bool along = near.role == Role::seed && far.role == Role::seed && near.owner == far.owner;
+        Vertex cut;
+        cut.role = Role::domain;
+        cut.owner = along ? near.owner : -1;
+        cut.side = along ? near.side : std::int8_t{0};
+        vertices.push_back(cut);
+    }
+    return vertices;
+}
+
+template <class Mix>
+std::vector<double> at_points(const ClippedMesh& mesh, const Model& model, std::vector<double> values, Mix&& mix) {
+    const std::vector<Vertex> vertices = place_vertices(mesh, model);
+    for (const auto& [a, b, t] : mesh.cuts) {
+        const bool across = vertices[a].side * vertices[b].side < 0 && vertices[a].owner == vertices[b].owner;
+        values.push_back(across ? values[t <= 0.5 ? a : b] : mix(values[a], values[b], t));
+    }
+    std::vector<double> result;
+    result.reserve(mesh.place.size());
+    for (const auto place : mesh.place) {
+        result.push_back(values[place]);
+    }
+    return result;
+}
+
+double linear_mix(double a, double b, double t) {
+    return a + t * (b - a);
+}
+
+}  // namespace
+
+std::vector<double> ClippedMesh::values(const Model& model, std::size_t property) const {
+    const Property& p = model.properties[property];
+    return at_points(*this, model, model.vertex_values.values[property], [&](double a, double b, double t) {
+        if (a == b || p.kind == Kind::categorical) {
+            return t <= 0.5 ? a : b;
+        }
+        return from_scale(p, linear_mix(to_scale(p, a), to_scale(p, b), t));
+    });
+}
+
+std::vector<double> ClippedMesh::extrapolation(const Model& model) const {
+    return at_points(*this, model, model.vertex_values.extrapolation, linear_mix);
+}
+
+std::vector<Vertex> ClippedMesh::vertices(const Model& model) const {
+    const std::vector<Vertex> all = place_vertices(*this, model);
+    std::vector<Vertex> result;
+    result.reserve(place.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        result.push_back(all[place[i]]);
+        result.back().position = points[i];
+    }
+    return result;
+}
+
+ClippedMesh clip_to_extent(const ModelView& view) {
+    return Clipper(view).run();
+}
+
+}  // namespace terratet

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Private to the writers: the tessellation cut exactly at the extent's six planes. Cells that reach beyond are cut
+/// into tetrahedra, conforming: a quadrilateral shared by two pieces is split along the diagonal from its vertex of
+/// smallest index, which also settles every prism (Dompierre et al. 1999, How to subdivide pyramids, prisms and
+/// hexahedra into tetrahedra). The volumes of all pieces add up to that of the extent within rounding.
+
+#include <cstdint>
+#include <vector>
+
+#include "io/export.hpp"
+
+namespace terratet {
+
+struct ClippedMesh {
+    /// Places are the model's vertices followed by the cuts.
+    using Place = std::uint32_t;
+
+    /// A place on the edge between two earlier ones.
+    struct Cut {
+        Place a, b;
+        double t;  ///< 0 at a, 1 at b
+    };
+    enum class Fate : std::uint8_t { dropped, whole, cut };
+
+    std::vector<Vec3> points;                         ///< frame-local, each used by a cell
+    std::vector<Place> place;                         ///< of each point
+    std::vector<Cut> cuts;                            ///< place model.vertices.size() + i is cuts[i]
+    std::vector<std::array<std::uint32_t, 4>> cells;  ///< indices into points, positively oriented
+    std::vector<std::uint32_t> parent;                ///< of each cell, the tessellation's cell; ascending
+    std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. The part inside the extent of a
+                                       ///< cell whose centroid is outside belongs to the block it continues
+    std::vector<Fate> fate;            ///< of each of the tessellation's cells
+
+    /// A property's values at the points, in measured units. Cuts are interpolated linearly in the property's scale; a
+    /// category, and an edge across a fault, take the nearer end's value.
+    [[nodiscard]] std::vector<double> values(const Model& model, std::size_t property) const;
+    [[nodiscard]] std::vector<double> extrapolation(const Model& model) const;
+    /// The vertex that a point is; for a cut one on the domain's boundary, with the side its ends have in common.
+    [[nodiscard]] std::vector<Vertex> vertices(const Model& model) const;
+};
+
+/// O(cells).
+ClippedMesh clip_to_extent(const ModelView& view);
+
+}  // namespace terratet

@@ -109,11 +109,11 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "collarrl", "altitude",  "alt",        "groundlevel", "groundelevation", "locagl",
          "height",   "masl",      "amsl"},
         // from
-        {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "sampfrom", "samplefrom",
+        {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "defr", "sampfrom", "samplefrom",
          "intervalfrom", "top", "depthtop", "topdepth", "mdtop", "geoltop"},
         // to
-        {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "sampto", "sampleto", "intervalto", "bottom",
-         "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
+        {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "deto", "sampto", "sampleto", "intervalto",
+         "bottom", "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
         // depth
         {"at", "deat", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "surveyat", "depth", "dept",
          "distance"},

@@ -62,6 +62,13 @@ std::pair<std::string, std::string> split_unit(const std::string& header) {
     return {header.substr(0, end == std::string::npos ? 0 : end + 1), header.substr(open + 1, close - open - 1)};
 }
 
+/// A column that a spreadsheet or a library named for want of a name: a running number more often than a measurement.
+bool is_unnamed(const std::string& header) {
+    const std::string name = lower(header);
+    const bool generated = name.starts_with("unnamed: ") || name.starts_with("field");
+    return generated && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
+}
+
 /// Has the column a meaning (position, depth, id), by name or by the user's word? Such columns are no properties unless
 /// asked for.
 std::vector<bool> columns_with_meaning(const Table& table, const ColumnNames& columns) {
@@ -102,11 +109,16 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         if (numbers == 0) {
             continue;
         }
-        if (repeated || 2 * numbers < filled) {
-            diagnostics.note(repeated ? fmt::format("{}: of several columns {} the first is used", table.file, name)
-                                      : fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; "
-                                                    "--property {} takes them, {}:categorical takes all as classes",
-                                                    table.file, name, numbers, filled, name, name));
+        if (is_unnamed(name) || repeated) {
+            diagnostics.note(fmt::format("{}: column {} is left out: {}", table.file, name,
+                                         repeated ? "the first of that name is used" : "it has no name of its own"));
+            continue;
+        }
+        if (2 * numbers < filled) {
+            diagnostics.note(
+                fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; --property {} "
+                            "takes them, {}:categorical takes all as classes",
+                            table.file, name, numbers, filled, name, name));
             continue;
         }
         result.push_back({Property{name, split_unit(name).second, Scale::linear, Kind::continuous, {}}, column});

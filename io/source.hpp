@@ -11,12 +11,12 @@
 namespace terratet {
 
 struct Source {
-    std::string path;
-    std::string layer;                      ///< empty: the first
-    std::string srs;                        ///< empty: what the file says, then the general -s_srs
-    std::string where;                      ///< attribute filter in OGR SQL
-    std::string sql;                        ///< a statement instead of a layer
-    std::vector<std::string> open_options;  ///< KEY=VALUE, handed to the driver
+    std::string path = {};
+    std::string layer = {};                      ///< empty: the first
+    std::string srs = {};                        ///< empty: what the file says, then the general -s_srs
+    std::string where = {};                      ///< attribute filter in OGR SQL
+    std::string sql = {};                        ///< a statement instead of a layer
+    std::vector<std::string> open_options = {};  ///< KEY=VALUE, handed to the driver
 
     /// For messages: the path and the layer. A password in a connection string is masked.
     [[nodiscard]] std::string describe() const;

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "io/read_table.hpp"
+#include "support.hpp"
+#include "tess/error.hpp"
+
+using namespace terratet;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string written(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+}
+
+Rows rows_of(const Table& table) {
+    Rows rows(table.rows());
+    for (const auto& column : table.cells) {
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            rows[row].push_back(column[row]);
+        }
+    }
+    return rows;
+}
+
+/// A point layer with a name, a whole number and a real one, in EPSG:3067.
+void write_points(const std::string& driver, const std::string& path, OGRwkbGeometryType type) {
+    GDALAllRegister();
+    GDALDataset* dataset =
+        GetGDALDriverManager()->GetDriverByName(driver.c_str())->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
+    REQUIRE(dataset != nullptr);
+    OGRSpatialReference reference;
+    reference.importFromEPSG(3067);
+    OGRLayer* layer = dataset->CreateLayer("collars", &reference, type, nullptr);
+    OGRFieldDefn hole("HOLE_ID", OFTString);
+    OGRFieldDefn year("YEAR", OFTInteger);
+    OGRFieldDefn grade("GRADE", OFTReal);
+    layer->CreateField(&hole);
+    layer->CreateField(&year);
+    layer->CreateField(&grade);
+    for (int i = 0; i < 3; ++i) {
+        const OGRFeatureUniquePtr feature{OGRFeature::CreateFeature(layer->GetLayerDefn())};
+        feature->SetField("HOLE_ID", ("KR0" + std::to_string(i)).c_str());
+        feature->SetField("YEAR", 2000 + i);
+        if (i != 1) {
+            feature->SetField("GRADE", 0.1 * (i + 1));
+        }
+        OGRPoint point(208000.5 + i, 6797000.25, 7.125);
+        if (OGR_GT_HasZ(type) == 0) {
+            point.flattenTo2D();
+        }
+        feature->SetGeometry(&point);
+        REQUIRE(layer->CreateFeature(feature.get()) == OGRERR_NONE);
+    }
+    GDALClose(dataset);
+}
+
+Table table_with(const std::vector<std::string>& columns) {
+    Table table;
+    table.file = "t.csv";
+    table.columns = columns;
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("ids of a CSV stay the text they are") {
+    const testing::TemporaryFolder folder;
+    const Table table = read_table({written(folder / "t.csv", "BHID,V\n0.0,1\n0,2\nDec-35,3\n007 ,4\n1e5,5\n")});
+    CHECK(table.columns == std::vector<std::string>{"BHID", "V"});
+    CHECK(table.cells[0] == std::vector<std::string>{"0.0", "0", "Dec-35", "007", "1e5"});
+    CHECK(table.lines == std::vector<std::int64_t>{2, 3, 4, 5, 6});
+}
+
+TEST_CASE("byte-order marks, semicolons, quoted numbers, trailing separators and Windows letters are read") {
+    const testing::TemporaryFolder folder;
+    const Table bom = read_table({written(folder / "bom.csv", "\xEF\xBB\xBFHOLE;X;;\r\nA;\"1.5\";;\r\nB;2;;\r\n")});
+    CHECK(bom.columns == std::vector<std::string>{"HOLE", "X"});
+    CHECK(rows_of(bom) == Rows{{"A", "1.5"}, {"B", "2"}});
+    CHECK(read_table({written(folder / "l1.csv", "id,x\n\xC4\xE4nekoski,1\n")}).cells[0][0] == "Äänekoski");
+    CHECK(read_table({written(folder / "tab.tsv", "id\tx\nA\t1\n")}).cells[1][0] == "1");
+    CHECK(read_table({written(folder / "t.txt", "id,x\nA,1\n")}).cells[1][0] == "1");
+}
+
+TEST_CASE("lines of a CSV are those an editor shows, past blank lines and quoted line ends") {
+    const testing::TemporaryFolder folder;
+    const Table table = read_table({written(folder / "t.csv", "id,x\n\nA,1\n\"B\nb\",2\n\n\nC,3")});
+    CHECK(table.lines == std::vector<std::int64_t>{3, 4, 8});
+    const Table filtered = read_table(parse_source((folder / "t.csv") + ",where=id='C'"));
+    CHECK(filtered.lines == std::vector<std::int64_t>{8});
+    const Table mac = read_table({written(folder / "mac.csv", "id,x\rA,1\rB,2\r")});
+    CHECK(mac.lines == std::vector<std::int64_t>{2, 3});
+}
+
+TEST_CASE("a header with a number in it is still a header when it names holes and depths") {
+    const testing::TemporaryFolder folder;
+    const Table table = read_table({written(folder / "t.csv", "BHID,FROM,TO,2019\nA,0,1,5\n")});
+    CHECK(table.columns == std::vector<std::string>{"BHID", "FROM", "TO", "2019"});
+    CHECK(table.rows() == 1);
+    CHECK(table.lines.front() == 2);
+    const Table bare = read_table({written(folder / "bare.csv", "A,0,1,5\nB,0,1,6\n")});
+    CHECK(bare.rows() == 2);
+    CHECK(bare.lines.front() == 1);
+}
+
+TEST_CASE("decimal commas are read as such where they can be nothing else") {
+    const testing::TemporaryFolder folder;
+    const Table table = read_table({written(folder / "t.csv", "id;x;v\nA;1,5;1,125\nB;2,25;3\n1,7;4;5\n")});
+    CHECK(rows_of(table) == Rows{{"A", "1.5", "1.125"}, {"B", "2.25", "3"}, {"1,7", "4", "5"}});
+    REQUIRE(table.notes.size() == 1);
+    CHECK_THAT(table.notes.front(), Contains("decimal comma") && Contains("x, v"));
+    const Table thousands = read_table({written(folder / "k.csv", "id;x;v\nA;1,500;1.5\n")});
+    CHECK(rows_of(thousands) == Rows{{"A", "1,500", "1.5"}});
+    CHECK(thousands.notes.empty());
+}
+
+TEST_CASE("GeoPackage and Shapefile give points, CRS and numbers without artefacts") {
+    const testing::TemporaryFolder folder;
+    for (const auto& [driver, name] :
+         {std::pair{"GPKG", "c.gpkg"}, std::pair{"ESRI Shapefile", "c.shp"}, std::pair{"FlatGeobuf", "c.fgb"}}) {
+        INFO(driver);
+        write_points(driver, folder / name, wkbPoint25D);
+        const Table table = read_table({folder / name});
+        REQUIRE(rows_of(table).size() == 3);
+        const Rows rows = rows_of(table);
+        CHECK(std::ranges::count(rows, std::vector<std::string>{"KR00", "2000", "0.1"}) == 1);
+        CHECK(std::ranges::count(rows, std::vector<std::string>{"KR01", "2001", ""}) == 1);
+        REQUIRE(table.points.size() == 3);
+        CHECK(std::ranges::count(table.points, std::optional(Vec3{208001.5, 6797000.25, 7.125})) == 1);
+        CHECK_THAT(table.crs.name, Contains("TM35FIN"));
+    }
+    write_points("GPKG", folder / "flat.gpkg", wkbPoint);
+    CHECK(std::isnan(read_table({folder / "flat.gpkg"}).points.front()->z));
+}
+
+TEST_CASE("layers are chosen by name, filter or statement") {
+    const testing::TemporaryFolder folder;
+    write_points("GPKG", folder / "c.gpkg", wkbPoint25D);
+    CHECK(read_table(parse_source((folder / "c.gpkg") + ",layer=collars,where=YEAR>2000")).rows() == 2);
+    CHECK(
+        read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT HOLE_ID, YEAR*2 AS y2 FROM collars")).cells[1][0] ==
+        "4000");
+    CHECK_THROWS_WITH(read_table(parse_source((folder / "c.gpkg") + ",layer=holes")), Contains("layers: collars"));
+    CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",where=NOT A FILTER(")), InputError);
+    CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT nothing FROM nowhere")), InputError);
+    CHECK_THROWS_WITH(read_table(parse_source((folder / "c.gpkg") + ",where=YEAR>3000")), Contains("no row"));
+}
+
+TEST_CASE("zipped tables are read in place") {
+    const testing::TemporaryFolder folder;
+    const std::string inside = "/vsizip/" + (folder / "t.zip") + "/deep/t.csv";
+    VSILFILE* file = VSIFOpenL(inside.c_str(), "wb");
+    REQUIRE(file != nullptr);
+    const std::string text = "id,x\nA,1\nB,2\n";
+    VSIFWriteL(text.data(), 1, text.size(), file);
+    VSIFCloseL(file);
+    const Table table = read_table({inside});
+    CHECK(table.rows() == 2);
+    CHECK(table.lines == std::vector<std::int64_t>{2, 3});
+}
+
+TEST_CASE("what is no table is refused with one clear message") {
+    const testing::TemporaryFolder folder;
+    std::string binary = "PK\x03\x04";
+    binary.resize(3000, '\0');
+    const auto message = [](const std::string& path) -> std::string {
+        try {
+            read_table({path});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK_THAT(message(folder / "none.csv"), Contains("none.csv: not found"));
+    CHECK_THAT(message(folder.path().string()), Contains("folder"));
+    CHECK_THAT(message(written(folder / "empty.csv", "")), Contains("empty"));
+    CHECK_THAT(message(written(folder / "header.csv", "id,x,y,z\n")), Contains("no row below its header"));
+    CHECK_THAT(message(written(folder / "binary.csv", binary)), Contains("binary"));
+    CHECK_THAT(message(written(folder / "binary.dat", binary)), Contains("no table that can be read"));
+    CHECK_THAT(message(written(folder / "broken.xlsx", binary)), Contains("no table that can be read"));
+    CHECK_THAT(message(written(folder / "broken.gpkg", binary)), Contains("no table that can be read"));
+    CHECK_THAT(message(written(folder / "utf16.csv", std::string("\xFF\xFEi\0d\0\n\0", 8))), Contains("UTF-16"));
+    CHECK_THAT(message(written(folder / "page.html", "<html><body>no</body></html>")), Contains("no table"));
+    CHECK_THAT(message(written(folder / "a.dxf", "0\nSECTION\n")), !Contains("hang"));
+    CHECK_THAT(message("PG:host=127.0.0.1 port=1 dbname=none password=secret connect_timeout=1"),
+               Contains("no table that can be read") && !Contains("secret"));
+}
+
+TEST_CASE("columns are found by the usual aliases in any case, units and punctuation") {
+    const Table collar = table_with({"Hole-ID", "Easting [m]", "NORTHING (m)", "rl", "EOH"});
+    CHECK(find_column(collar, Meaning::id, {}) == 0);
+    CHECK(find_column(collar, Meaning::x, {}) == 1);
+    CHECK(find_column(collar, Meaning::y, {}) == 2);
+    CHECK(find_column(collar, Meaning::z, {}) == 3);
+    CHECK(find_column(collar, Meaning::length, {}) == 4);
+    CHECK(find_column(collar, Meaning::dip, {}) == -1);
+    for (const char* id : {"BHID", "HOLEID", "HOLE_ID", "dhid", "SITE_ID", "CollarID", "WELL", "UWI", "BORE"}) {
+        CHECK(find_column(table_with({"X", id}), Meaning::id, {}) == 1);
+    }
+    for (const char* depth : {"AT", "DEPTH", "DEPTH_M", "Depth_ft", "MD"}) {
+        CHECK(find_column(table_with({"X", depth}), Meaning::depth, {}) == 1);
+    }
+    for (const char* dip : {"DIP", "INCLINATION", "INCL", "PLUNGE", "DEVI_deg"}) {
+        CHECK(find_column(table_with({"X", dip}), Meaning::dip, {}) == 1);
+    }
+    for (const char* azimuth : {"AZ", "AZIMUTH", "BRG", "DIRECTION", "HAZI_deg"}) {
+        CHECK(find_column(table_with({"X", azimuth}), Meaning::azimuth, {}) == 1);
+    }
+    for (const char* from : {"FROM", "FROM_M", "Depth_From", "TOP"}) {
+        CHECK(find_column(table_with({"X", from}), Meaning::from, {}) == 1);
+    }
+    for (const char* x : {"XCOLLAR", "X", "EAST", "EASTING", "LON", "LocationX"}) {
+        CHECK(find_column(table_with({"ID", x}), Meaning::x, {}) == 1);
+    }
+    for (const char* z : {"Z", "ELEV", "RL", "ZCOLLAR", "elevation_z"}) {
+        CHECK(find_column(table_with({"ID", z}), Meaning::z, {}) == 1);
+    }
+    // A mid-point coordinate is no position of a collar.
+    CHECK(find_column(table_with({"DHID", "xm", "ym", "zm"}), Meaning::x, {}) == -1);
+    CHECK(find_column(table_with({"depth", "md"}), Meaning::depth, {}) == 1);
+}
+
+TEST_CASE("named columns go before aliases, and a misspelt one is told") {
+    const Table table = table_with({"BHID", "WELLNO", "X"});
+    CHECK(find_column(table, Meaning::id, {{"id", "wellno"}}) == 1);
+    CHECK(find_column(table, Meaning::id, {{"id", "OTHER"}}) == 0);  // meant for another table
+    CHECK(find_column(table, Meaning::id, {{"id", "OTHER"}, {"id", "WELLNO"}}) == 1);
+    CHECK(find_optional_column(table, Meaning::y, {{"y", "NORD"}}) == -1);
+    CHECK_THROWS_WITH(find_column(table, Meaning::y, {{"y", "NORD"}}), Contains("NORD") && Contains("WELLNO"));
+    CHECK_THROWS_AS(find_column(table, Meaning::y, {{"y", "NORD"}}), UsageError);
+    CHECK_THROWS_WITH(find_column(table, Meaning::x, {{"easting", "X"}}), Contains("no such meaning"));
+}
+
+TEST_CASE("a number is a whole cell, finite, and without locale") {
+    CHECK(parse_number("1.5") == 1.5);
+    CHECK(parse_number(" -2e-3 ") == -2e-3);
+    CHECK(parse_number("+7") == 7);
+    CHECK(parse_number(".5") == .5);
+    for (const char* bad : {"", " ", "1,5", "1.5m", "nan", "inf", "-inf", "1e999", "0x1A", "1 2", "+-1", "--", "abc"}) {
+        INFO(bad);
+        CHECK_FALSE(parse_number(bad));
+    }
+}
+
+TEST_CASE("headers and numbers of workbooks read well") {
+    const auto folder = testing::public_data("subsurface/tests/data/borehole");
+    if (!folder) {
+        WARN("public data absent: skipped");
+        return;
+    }
+    const Table collars = read_table({(*folder / "wells-database-small.xlsx").string(), "collar"});
+    CHECK(collars.columns == std::vector<std::string>{"HOLE", "EAST", "NORT", "ELEV", "EODH"});
+    CHECK(rows_of(collars).front() ==
+          std::vector<std::string>{"NC-01", "424577.243059", "5477543.62945", "372", "58.83"});
+    CHECK(collars.lines.front() == 2);
+    const Table bare = read_table({(*folder / "borehole_collar.xlsx").string()});
+    CHECK(rows_of(bare).front() == std::vector<std::string>{"foo", "691342.0472", "4164009.011", "134.94", "508.4"});
+}

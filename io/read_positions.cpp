@@ -165,7 +165,8 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
                                  ? fmt::format(" (its columns {} and {} look like EPSG:4326)", header(table, columns.x),
                                                header(table, columns.y))
                                  : "";
-    PlacedTable placed{std::move(table), resolved_crs(source, table.crs, general_crs, hint), {}, {}};
+    Crs crs = resolved_crs(source, table.crs, general_crs, hint);
+    PlacedTable placed{std::move(table), std::move(crs), {}, {}};
     for (std::size_t row = 0; row < placed.table.rows(); ++row) {
         std::string problem;
         placed.points.push_back(position(placed.table, columns, placed.crs, row, problem));

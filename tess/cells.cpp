@@ -72,30 +72,86 @@ class Explainer {
     std::optional<PointGrid> vertices_;
 };
 
-/// Connected components of the cells in the extent and outside the gaps, numbered by their smallest cell.
-void label_regions(const TetMesh& mesh, CellTable& table) {
-    std::vector<std::uint32_t> stack;
-    for (std::uint32_t first = 0; first < mesh.cells.size(); ++first) {
-        const auto inside = [&](std::uint32_t c) { return table.in_extent[c] != 0 && table.fault[c] < 0; };
-        if (table.region[first] >= 0 || !inside(first)) {
-            continue;
+/// The part of a convex polygon on the inner side of one face of a box.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, int axis, double limit, bool upper) {
+    std::vector<Vec3> result;
+    const auto depth = [&](const Vec3& p) { return upper ? limit - p[axis] : p[axis] - limit; };
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3& p = polygon[i];
+        const Vec3& q = polygon[(i + 1) % polygon.size()];
+        if (depth(p) >= 0) {
+            result.push_back(p);
         }
-        table.region[first] = table.region_count;
-        stack.push_back(first);
+        if ((depth(p) > 0 && depth(q) < 0) || (depth(p) < 0 && depth(q) > 0)) {
+            result.push_back(p + (depth(p) / (depth(p) - depth(q))) * (q - p));
+        }
+    }
+    return result;
+}
+
+/// Does the triangle share an area with the box?
+bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
+    std::vector<Vec3> polygon(triangle.begin(), triangle.end());
+    for (int axis = 0; axis < 3; ++axis) {
+        polygon = clipped(polygon, axis, box.lo[axis], false);
+        polygon = clipped(polygon, axis, box.hi[axis], true);
+    }
+    Vec3 area;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        area = area + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    }
+    return squared_length(area) > 0;
+}
+
+/// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells are
+/// connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
+class RegionLabels {
+  public:
+    RegionLabels(const Model& model, const TetMesh& mesh, CellTable& table)
+        : extent_(model.domain.extent), all_inside_(model.domain.hull == model.domain.extent), mesh_(mesh), table_(table) {}
+
+    void run() {
+        std::vector<std::int32_t> component(mesh_.cells.size(), -1);
+        for (std::uint32_t first = 0; first < mesh_.cells.size(); ++first) {
+            if (component[first] < 0 && table_.in_extent[first] != 0 && table_.fault[first] < 0) {
+                flood(first, component);
+                ++table_.region_count;
+            }
+        }
+        for (std::size_t c = 0; c < component.size(); ++c) {
+            table_.region[c] = table_.in_extent[c] != 0 ? component[c] : -1;
+        }
+    }
+
+  private:
+    void flood(std::uint32_t first, std::vector<std::int32_t>& component) {
+        std::vector<std::uint32_t> stack{first};
+        component[first] = table_.region_count;
         while (!stack.empty()) {
             const std::uint32_t cell = stack.back();
             stack.pop_back();
-            for (const std::int32_t next : mesh.neighbours[cell]) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::int32_t next = mesh_.neighbours[cell][k];
                 const auto neighbour = static_cast<std::uint32_t>(next);
-                if (next >= 0 && table.region[neighbour] < 0 && inside(neighbour)) {
-                    table.region[neighbour] = table.region_count;
+                if (next >= 0 && component[neighbour] < 0 && table_.fault[neighbour] < 0 && open(cell, k)) {
+                    component[neighbour] = table_.region_count;
                     stack.push_back(neighbour);
                 }
             }
         }
-        ++table.region_count;
     }
-}
+
+    [[nodiscard]] bool open(std::uint32_t cell, std::size_t k) const {
+        const auto& v = mesh_.cells[cell];
+        return all_inside_ || overlaps(extent_, {mesh_.points[v[(k + 1) % 4]], mesh_.points[v[(k + 2) % 4]],
+                                                 mesh_.points[v[(k + 3) % 4]]});
+    }
+
+    const Box3& extent_;
+    bool all_inside_;
+    const TetMesh& mesh_;
+    CellTable& table_;
+};
 
 double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
@@ -151,7 +207,7 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
         table.fault[c] = gap_fault(mesh.cells[c], model.vertices);
         table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
     }
-    label_regions(mesh, table);
+    RegionLabels(model, mesh, table).run();
     return table;
 }
 

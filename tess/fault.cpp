@@ -23,6 +23,7 @@ namespace {
 constexpr double bend_factor = 1.1;     ///< on the protection radius of bent surfaces
 constexpr double margin_factor = 1.15;  ///< width of the margin in protection radii
 constexpr double trim_limit = 0.6;      ///< share of a fault that may be trimmed beside others
+constexpr double max_deviation = 0.5;   ///< of a remeshed and rounded fault from the one read, in spacings
 constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
 
 std::string text(double value) {
@@ -152,13 +153,20 @@ Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3&
         FaultMesh meshed = carrier;
         if (!suits(carrier, scale.spacing)) {
             meshed = remeshed(carrier, scale.spacing);
-            result.deviation = std::max(result.deviation, deviation(carrier, meshed, extent, scale.spacing));
         }
+        result.finer_may_help = !round_bends(meshed, scale.spacing) || result.finer_may_help;
+        result.deviation = std::max(result.deviation, deviation(carrier, meshed, extent, scale.spacing));
         for (Vec3& p : meshed.points) {
             p = frame.snapped(p);
         }
         append(skirts, skirt(meshed, scale.margin, extent, limit));
         append(whole, meshed);
+    }
+    if (result.finer_may_help || result.deviation > max_deviation * scale.spacing) {
+        result.finer_may_help = true;
+        result.refusal = "is too rough for a spacing of " + text(scale.spacing) + ": rounding its bends moves it by " +
+                         text(result.deviation) + " or more; choose a smaller spacing, or the exact fault mode";
+        return result;
     }
     BoxCut cut = cut_to_box(whole, extent);
     FaultMesh around = std::move(cut.outside);
@@ -194,7 +202,7 @@ Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3&
     const double at_most = scale.spacing * std::numbers::sqrt2 / 2 * (1 + 2e-6);
     fault.covering_radius = covering_radius(all, base, at_most);
     const Separation separation = test_separation({fault.sheet.vertices, fault.sheet.triangles}, base,
-                                                  fault.covering_radius, scale.width, scale.width / 8);
+                                                  fault.covering_radius, scale.width, scale.width / 4);
     const bool distinct = place_seeds(base, scale.width, frame, fault.seeds);
     if (!separation.holds || !distinct) {
         result.refusal = "bends too sharply at " + text(frame.to_world(separation.where)) + ", even for a spacing of " +

@@ -94,6 +94,33 @@ double farthest(const FaultMesh& from, const FaultMesh& to, const Box3& where, d
     return most;
 }
 
+std::vector<std::vector<std::uint32_t>> neighbours(const FaultMesh& mesh) {
+    std::vector<std::vector<std::uint32_t>> result(mesh.points.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            result[t[k]].push_back(t[(k + 1) % 3]);
+            result[t[k]].push_back(t[(k + 2) % 3]);
+        }
+    }
+    for (auto& list : result) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    return result;
+}
+
+/// Marks the neighbours of the marked as well.
+void widen(std::vector<char>& marked, const std::vector<std::vector<std::uint32_t>>& all) {
+    const std::vector<char> before = marked;
+    for (std::size_t v = 0; v < all.size(); ++v) {
+        if (before[v] != 0) {
+            for (const std::uint32_t w : all[v]) {
+                marked[w] = 1;
+            }
+        }
+    }
+}
+
 }  // namespace
 
 bool suits(const FaultMesh& mesh, double spacing) {
@@ -143,35 +170,49 @@ double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, doub
     return std::max(farthest(a, b, where, limit), farthest(b, a, where, limit));
 }
 
-void smooth(FaultMesh& mesh, const std::vector<char>& movable) {
-    std::vector<Vec3> sum(mesh.points.size());
-    std::vector<int> count(mesh.points.size(), 0);
-    std::vector<char> on_rim(mesh.points.size(), 0);
-    const auto link = [&](std::uint32_t v, std::uint32_t w) {
-        sum[v] = sum[v] + mesh.points[w];
-        ++count[v];
-    };
-    const std::vector<RimEdge> rim = rim_edges(mesh);
-    for (const RimEdge& e : rim) {
-        on_rim[e.from] = on_rim[e.to] = 1;
-        link(e.from, e.to);
-        link(e.to, e.from);
+bool round_bends(FaultMesh& mesh, double spacing) {
+    const std::vector<std::vector<std::uint32_t>> all = neighbours(mesh);
+    std::vector<std::vector<std::uint32_t>> to_follow = all;  // a rim follows itself, or it would curl
+    for (const RimEdge& e : rim_edges(mesh)) {
+        to_follow[e.from].clear();
+        to_follow[e.to].clear();
     }
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (const std::uint32_t w : {t[(k + 1) % 3], t[(k + 2) % 3]}) {
-                if (on_rim[t[k]] == 0) {
-                    link(t[k], w);
+    for (const RimEdge& e : rim_edges(mesh)) {
+        to_follow[e.from].push_back(e.to);
+        to_follow[e.to].push_back(e.from);
+    }
+    for (int round = 0; round < 40; ++round) {
+        const std::vector<Vec3> normals = vertex_normals(mesh);
+        std::vector<char> moving(mesh.points.size(), 0);
+        bool resolved = true;
+        for (std::size_t v = 0; v < all.size(); ++v) {
+            for (const std::uint32_t w : all[v]) {
+                const Vec3 step = mesh.points[w] - mesh.points[v];
+                const double across = std::max(length(step), 0.5 * spacing);
+                if (std::abs(dot(step, normals[v])) > 0.1 * across * across / spacing) {
+                    resolved = false;
+                    moving[v] = 1;
                 }
             }
         }
-    }
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-        // A rim's corner would creep inwards: rims are smoothed only where they run on.
-        if (movable[v] != 0 && count[v] > 0 && on_rim[v] == 0) {
-            mesh.points[v] = 0.5 * (mesh.points[v] + sum[v] / count[v]);
+        if (resolved) {
+            return true;
         }
+        widen(moving, all);
+        widen(moving, all);
+        std::vector<Vec3> moved = mesh.points;
+        for (std::size_t v = 0; v < all.size(); ++v) {
+            if (moving[v] != 0 && !to_follow[v].empty()) {
+                Vec3 mean;
+                for (const std::uint32_t w : to_follow[v]) {
+                    mean = mean + mesh.points[w] / static_cast<double>(to_follow[v].size());
+                }
+                moved[v] = mesh.points[v] + 0.6 * dot(mean - mesh.points[v], normals[v]) * normals[v];
+            }
+        }
+        mesh.points = std::move(moved);
     }
+    return false;
 }
 
 }  // namespace terratet

@@ -21,8 +21,8 @@ FaultMesh remeshed(const FaultMesh& mesh, double spacing);
 /// above `limit` count as `limit`.
 double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, double limit);
 
-/// Evens out bends the spacing can't resolve: moves each point, rim points along with their rim neighbours only, half
-/// way to the mean of its neighbours.
-void smooth(FaultMesh& mesh, const std::vector<char>& movable);
+/// Rounds bends sharper than a radius of five spacings, which seeds at that spacing could not follow: points there move
+/// along their normals towards their neighbours until every bend is resolved. False when some is not after 40 rounds.
+bool round_bends(FaultMesh& mesh, double spacing);
 
 }  // namespace terratet

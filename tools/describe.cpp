@@ -146,7 +146,9 @@ Json describe_table(const Table& table) {
             box.extend(*point);
         }
     }
-    json["extent"] = box_json(box);
+    if (!box.empty()) {
+        json["extent"] = box_json(box);
+    }
     json["columns"] = Json::array();
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         Range range;

@@ -26,7 +26,7 @@ struct RunRecord {
 /// JSON with the keys of docs/report.md in their order.
 std::string report_text(const RunRecord& record);
 
-/// A few lines with everything a person checks first.
+/// A few lines with everything a person checks first; no line end after the last.
 std::string summary_text(const RunRecord& record);
 
 /// To the file, or to standard output for "-".

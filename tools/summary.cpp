@@ -99,7 +99,7 @@ std::string summary_text(const RunRecord& record) {
     for (const auto& output : record.outputs) {
         out += line("Wrote", fmt::format("{} ({})", output.path, byte_size(output.bytes)));
     }
-    return out + line("Time", fmt::format("{:.2f} s", record.total_seconds));
+    return out + fmt::format("{:10}{:.2f} s", "Time", record.total_seconds);
 }
 
 }  // namespace terratet::tools

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pages say what the program says: help in docs/commands, commands of the tutorial, the README's program.
+
+TERRATET_UPDATE_DOCS=1 writes the help into the pages instead of comparing."""
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from terratet import PROGRAM, ROOT, Case
+
+DOCS = ROOT / "docs"
+
+
+class Documents(Case):
+    def commands(self):
+        lines = self.succeed("help").stdout.split("Commands:\n")[1].splitlines()
+        return [line.split()[0] for line in lines if re.match(r"  [a-z]", line)]
+
+    def test_each_command_has_a_page_with_its_help(self):
+        pages = {page.stem for page in (DOCS / "commands").glob("*.md")}
+        self.assertEqual(pages, set(self.commands()))
+        for command in sorted(pages - {"help"}):
+            help_text = self.succeed(command, "--help").stdout
+            self.compare_block(DOCS / "commands" / f"{command}.md", help_text)
+        self.compare_block(DOCS / "commands" / "help.md", self.succeed("help").stdout)
+
+    def compare_block(self, page, text):
+        pattern = re.compile(r"(```text\n).*?(```)", re.S)
+        found = pattern.search(page.read_text())
+        self.assertTrue(found, f"{page}: no help")
+        if os.environ.get("TERRATET_UPDATE_DOCS"):
+            page.write_text(pattern.sub(lambda m: m[1] + text + m[2], page.read_text(), count=1))
+        self.assertEqual(pattern.search(page.read_text())[0], "```text\n" + text + "```", f"{page} is out of date")
+
+    def test_the_tutorials_commands_run(self):
+        (self.folder / "data").symlink_to(ROOT / "data")
+        environment = {**os.environ, "PATH": f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"}
+        blocks = re.findall(r"```console\n(.*?)```", (DOCS / "tutorial.md").read_text(), re.S)
+        self.assertGreater(len(blocks), 4)
+        for block in blocks:
+            script = re.sub(r"^\$ ", "", block, flags=re.M)
+            result = subprocess.run(["bash", "-euc", script], cwd=self.folder, env=environment, capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, script + result.stderr)
+
+    def test_the_readmes_program_is_the_one_that_the_install_test_builds(self):
+        program = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(), re.S)[1]
+        tested = (ROOT / "tests" / "install" / "first_model.cpp").read_text()
+        self.assertTrue(tested.endswith(program), "README.md and tests/install/first_model.cpp differ")
+
+    def test_links_between_pages_lead_somewhere(self):
+        for page in [*ROOT.glob("*.md"), *DOCS.rglob("*.md"), *(ROOT / "data").rglob("*.md")]:
+            for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
+                self.assertTrue((page.parent / target).exists(), f"{page}: {target}")
+
+
+if __name__ == "__main__":
+    unittest.main()

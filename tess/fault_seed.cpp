@@ -146,31 +146,30 @@ double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base
 
 Separation test_separation(const FaultMesh& sheet, const std::vector<BasePoint>& base, double covering, double width,
                            double nearest) {
-    const BaseGrid grid(covering + 1.5 * width, base);
+    const double largest_piece = 1.2 * covering;
+    const BaseGrid grid(largest_piece + covering + 1.5 * width, base);
     Separation result;
-    const auto test = [&](const Vec3& x, const Vec3& normal) {
-        ++result.samples;
-        bool failed = false;
-        for (const double offset : {nearest, 0.25 * width, 0.5 * width}) {
+    std::vector<BasePoint> near;  // all that can matter to a piece
+    const auto separates = [&](const Vec3& x, const Vec3& normal) {
+        for (const double offset : {nearest, 0.5 * width}) {
             for (const double side : {1.0, -1.0}) {
                 const Vec3 place = x + side * offset * normal;
                 double own = std::numeric_limits<double>::infinity();
                 double other = own;
-                grid.any_near(x, [&](const BasePoint& b) {
+                for (const BasePoint& b : near) {
                     const Vec3 half = 0.5 * side * width * b.normal;
                     own = std::min(own, squared_distance(place, b.position + half));
                     other = std::min(other, squared_distance(place, b.position - half));
+                }
+                if (own >= other) {
                     return false;
-                });
-                failed = failed || own >= other;
+                }
             }
         }
-        if (failed) {
-            result.where = result.holds ? x : result.where;
-            result.holds = false;
-            ++result.failures;
-        }
-        result.bent = result.bent || grid.any_near(x, [&](const BasePoint& b) {
+        return true;
+    };
+    const auto bends = [&](const Vec3& x, const Vec3& normal) {
+        return std::any_of(near.begin(), near.end(), [&](const BasePoint& b) {
             return distance(b.position, x) < 2 * covering &&
                    (std::abs(dot(x - b.position, b.normal)) > 2e-3 * covering || dot(b.normal, normal) < 0.9999);
         });
@@ -182,14 +181,29 @@ Separation test_separation(const FaultMesh& sheet, const std::vector<BasePoint>&
             const TriangleCorners piece = open.back();
             open.pop_back();
             const auto quarters = quartered(piece);
-            if (radius_about(centroid(piece), piece) > 0.6 * covering) {
+            const Vec3 middle = centroid(piece);
+            const double size = radius_about(middle, piece);
+            if (size > largest_piece) {
                 open.insert(open.end(), quarters.begin(), quarters.end());
                 continue;
             }
-            for (const TriangleCorners& quarter : quarters) {  // corners, edge midpoints, and inside
-                test(quarter[0], normal);
-                test(centroid(quarter), normal);
+            near.clear();
+            grid.any_near(middle, [&](const BasePoint& b) {
+                if (distance(b.position, middle) <= size + covering + 1.5 * width) {
+                    near.push_back(b);
+                }
+                return false;
+            });
+            std::array<Vec3, 10> samples = {piece[0], piece[1], piece[2]};
+            std::copy(quarters[3].begin(), quarters[3].end(), samples.begin() + 3);  // midpoints of the edges
+            std::transform(quarters.begin(), quarters.end(), samples.begin() + 6, centroid);
+            for (const Vec3& x : samples) {
+                if (!separates(x, normal)) {
+                    result.where = result.holds ? x : result.where;
+                    result.holds = false;
+                }
             }
+            result.bent = result.bent || bends(middle, normal);
         }
     }
     return result;

@@ -31,11 +31,9 @@ struct Separation {
     bool holds = true;
     bool bent = false;  ///< a base point's tangent plane leaves the sheet before the next one
     Vec3 where;         ///< a sample that ends up on the wrong side
-    std::size_t failures = 0;
-    std::size_t samples = 0;
 };
 
-/// Is x ± δn nearest to a seed of its own side, at samples x all over the sheet and δ = `nearest` … width/2?
+/// Is x ± δn nearest to a seed of its own side, at samples x all over the sheet and δ = `nearest` and width/2?
 Separation test_separation(const FaultMesh& sheet, const std::vector<BasePoint>& base, double covering, double width,
                            double nearest);
 

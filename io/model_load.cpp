@@ -76,7 +76,8 @@ class ModelReader {
     std::vector<std::map<std::string, double>> classes_;  ///< of each property
     RowIndex borehole_rows_, sample_rows_;
     std::map<std::int64_t, std::size_t> fault_of_sheet_row_;
-    std::vector<bool> has_margin_, seeds_are_vertices_;
+    std::vector<bool> has_margin_;
+    std::vector<std::size_t> seeds_among_vertices_;  ///< how many to find there, by fault
 };
 
 Meta ModelReader::read_meta() {
@@ -237,10 +238,10 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
     has_margin_.push_back(false);
     const std::int64_t count = layer.required_integer_at(columns.seed_count);
     const bool packed_here = layer.is_set(columns.seeds) || count == 0;
-    if (packed_here && count != static_cast<std::int64_t>(fault.seeds.size())) {
+    if (count < 0 || (packed_here && count != static_cast<std::int64_t>(fault.seeds.size()))) {
         layer.fail("its seeds are not as many as its seed_count");
     }
-    seeds_are_vertices_.push_back(!packed_here);
+    seeds_among_vertices_.push_back(packed_here ? 0 : static_cast<std::size_t>(count));
     model_.faults.push_back(std::move(fault));
 }
 
@@ -312,8 +313,16 @@ void ModelReader::read_vertices() {
 
 void ModelReader::find_seeds_among_vertices() {
     for (const Vertex& vertex : model_.vertices) {
-        if (vertex.role == Role::seed && seeds_are_vertices_[static_cast<std::size_t>(vertex.owner)]) {
-            model_.faults[static_cast<std::size_t>(vertex.owner)].seeds.push_back({vertex.position, vertex.side});
+        const auto fault = static_cast<std::size_t>(vertex.owner);
+        if (vertex.role == Role::seed && seeds_among_vertices_[fault] > 0) {
+            model_.faults[fault].seeds.push_back({vertex.position, vertex.side});
+        }
+    }
+    for (std::size_t f = 0; f < model_.faults.size(); ++f) {
+        if (seeds_among_vertices_[f] > 0 && seeds_among_vertices_[f] != model_.faults[f].seeds.size()) {
+            throw InputError(file_ + ": layer " + schema::vertices + " has " +
+                             std::to_string(model_.faults[f].seeds.size()) + " seeds of fault " +
+                             model_.faults[f].name + ", which had " + std::to_string(seeds_among_vertices_[f]));
         }
     }
 }

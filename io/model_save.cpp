@@ -89,6 +89,7 @@ class ModelWriter {
           model_(model),
           columns_(property_columns(model.properties)) {
         // A text that is no CRS (or none) leaves the layers without; the text itself is in the meta layer.
+        const GdalScope quiet;
         if (!model.frame.crs_wkt.empty() && reference_.importFromWkt(model.frame.crs_wkt.c_str()) == OGRERR_NONE) {
             reference_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
             has_reference_ = true;
@@ -320,10 +321,12 @@ void ModelWriter::write_journal(const JournalEntry& entry) {
                 (full ? "; free some space or choose another folder" : ""));
 }
 
-/// SQLite as safe as it can be: these hold against the environment's OGR_SQLITE_… variables.
-struct DurableSqlite {
+/// SQLite's settings while a new database is made, whatever the environment's OGR_SQLITE_… variables say. The driver
+/// makes its tables in a hundred transactions of their own; nobody sees the file yet, so these need not wait for the
+/// disk.
+struct CreationSettings {
     GdalOption journal{"OGR_SQLITE_JOURNAL", "DELETE"};
-    GdalOption synchronous{"OGR_SQLITE_SYNCHRONOUS", "FULL"};
+    GdalOption synchronous{"OGR_SQLITE_SYNCHRONOUS", "OFF"};
     GdalOption pragma{"OGR_SQLITE_PRAGMA", ""};
 };
 
@@ -340,7 +343,9 @@ std::string pragma(GDALDataset& dataset, const char* name) {
     return value;
 }
 
-void require_durable(GDALDataset& dataset) {
+/// From here on as safe as SQLite can be. Asked back, since a setting it does not know is silently ignored.
+void make_durable(GDALDataset& dataset) {
+    pragma(dataset, "synchronous=FULL");
     if (pragma(dataset, "journal_mode") != "delete" || pragma(dataset, "synchronous") != "2") {
         throw Error("SQLite does not take journal_mode=DELETE and synchronous=FULL; the model would not be safe");
     }
@@ -354,6 +359,7 @@ void write_transaction(Dataset& dataset, GdalScope& scope, const std::string& pa
     }
     try {
         ModelWriter(*dataset, scope, path, model).write(entry);
+        dataset->FlushCache(false);  // extents and counts belong to the transaction too
         if (dataset->CommitTransaction() != OGRERR_NONE || scope.failed()) {
             fail(path, scope);
         }
@@ -399,7 +405,7 @@ void save_in_file(const std::string& path, const Model& model, const JournalEntr
     unlink(file.temporary_path().c_str());  // the driver insists on making it
     {
         GdalScope scope;
-        const DurableSqlite durable;
+        const CreationSettings settings;
         const std::string time = iso8601(current_time(), "%Y-%m-%dT%H:%M:%S.000Z");
         const GdalOption now("OGR_CURRENT_DATE", time.c_str());
         GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
@@ -408,7 +414,7 @@ void save_in_file(const std::string& path, const Model& model, const JournalEntr
         if (!dataset) {
             fail(path, scope);
         }
-        require_durable(*dataset);
+        make_durable(*dataset);
         write_transaction(dataset, scope, path, model, entry);
     }
     file.commit();

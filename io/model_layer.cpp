@@ -4,7 +4,10 @@
 
 #include <cpl_string.h>
 
+#include <cassert>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -17,74 +20,82 @@ std::string because(const GdalScope& scope) {
     return scope.failed() ? ": " + scope.failure() : "";
 }
 
-/// The same names in every database, whatever its driver's habits.
-CPLStringList layer_options(GDALDataset& dataset) {
+}  // namespace
+
+LayerWriter::LayerWriter(GDALDataset& dataset, const GdalScope& scope, std::string file, const char* name,
+                         OGRwkbGeometryType type, const OGRSpatialReference* reference)
+    : dataset_(dataset),
+      scope_(scope),
+      file_(std::move(file)),
+      name_(name),
+      type_(type),
+      reference_(reference),
+      postgis_(EQUAL(dataset.GetDriverName(), "PostgreSQL")) {}
+
+Column LayerWriter::add(const std::string& name, OGRFieldType type) {
+    columns_.emplace_back(name, type);
+    return static_cast<Column>(columns_.size() - 1);
+}
+
+/// The same names in every database, whatever its driver's habits. GDAL hands numbers to PostgreSQL with 15 digits; so
+/// its fields are text, in columns that are float8 all the same.
+void LayerWriter::create() {
     CPLStringList options;
     options.SetNameValue("FID", "fid");
     options.SetNameValue("GEOMETRY_NAME", "geom");
-    // An R-tree costs four times the rest of the writing; Terratet never uses it and QGIS makes one on request.
-    options.SetNameValue("SPATIAL_INDEX", EQUAL(dataset.GetDriverName(), "PostgreSQL") ? "NONE" : "NO");
-    if (EQUAL(dataset.GetDriverName(), "PostgreSQL")) {
+    if (postgis_) {
+        std::string numbers;
+        for (const auto& [name, type] : columns_) {
+            numbers += type == OFTReal ? (numbers.empty() ? "" : ",") + name + "=float8" : "";
+        }
+        options.SetNameValue("COLUMN_TYPES", numbers.c_str());
         options.SetNameValue("LAUNDER", "NO");
         options.SetNameValue("OVERWRITE", "YES");
         options.SetNameValue("FID64", "TRUE");
+        options.SetNameValue("SPATIAL_INDEX", "NONE");
+    } else {
+        // An R-tree costs four times the rest of the writing; Terratet never uses it and QGIS makes one on request.
+        options.SetNameValue("SPATIAL_INDEX", "NO");
     }
-    return options;
-}
-
-}  // namespace
-
-LayerWriter::LayerWriter(GDALDataset& dataset, const GdalScope& scope, const std::string& file, const char* name,
-                         OGRwkbGeometryType type, const OGRSpatialReference* reference)
-    : scope_(scope),
-      file_(file),
-      layer_(
-          dataset.CreateLayer(name, const_cast<OGRSpatialReference*>(reference), type, layer_options(dataset).List())) {
+    layer_ = dataset_.CreateLayer(name_.c_str(), const_cast<OGRSpatialReference*>(reference_), type_, options.List());
     if (!layer_) {
-        throw Error("cannot write " + file_ + ": layer " + name + because(scope_));
+        throw Error("cannot write " + file_ + ": layer " + name_ + because(scope_));
     }
-}
-
-Column LayerWriter::add(const std::string& name, OGRFieldType type) {
-    OGRFieldDefn definition(name.c_str(), type);
-    const Column column = layer_->GetLayerDefn()->GetFieldCount();
-    if (layer_->CreateField(&definition) != OGRERR_NONE || layer_->GetLayerDefn()->GetFieldCount() != column + 1) {
-        throw Error("cannot write " + file_ + ": column " + name + because(scope_));
-    }
-    return column;
-}
-
-/// One feature serves all rows; its cells are null (not unset), so that the driver prepares its statement once.
-void LayerWriter::begin_row() {
-    if (!row_) {
-        row_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
-        for (Column column = 0; column < row_->GetFieldCount(); ++column) {
-            row_->SetFieldNull(column);
+    for (const auto& [name, type] : columns_) {
+        OGRFieldDefn definition(name.c_str(), postgis_ && type == OFTReal ? OFTString : type);
+        if (layer_->CreateField(&definition) != OGRERR_NONE) {
+            throw Error("cannot write " + file_ + ": layer " + name_ + ", column " + name + because(scope_));
         }
+    }
+    // One feature serves all rows; its cells are null (not unset), so that the driver prepares its statement once.
+    row_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
+    assert(row_->GetFieldCount() == static_cast<int>(columns_.size()));
+    for (Column column = 0; column < row_->GetFieldCount(); ++column) {
+        row_->SetFieldNull(column);
     }
 }
 
 void LayerWriter::set(Column column, double value) {
-    begin_row();
     if (std::isnan(value)) {
         row_->SetFieldNull(column);
+    } else if (postgis_) {
+        char text[32] = {};
+        std::to_chars(std::begin(text), std::end(text) - 1, value);
+        row_->SetField(column, text);
     } else {
         row_->SetField(column, value);
     }
 }
 
 void LayerWriter::set(Column column, std::int64_t value) {
-    begin_row();
     row_->SetField(column, static_cast<GIntBig>(value));
 }
 
 void LayerWriter::set(Column column, const std::string& value) {
-    begin_row();
     row_->SetField(column, value.c_str());
 }
 
 void LayerWriter::set(Column column, std::span<const std::byte> value) {
-    begin_row();
     if (value.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         throw Error("cannot write " + file_ + ": a surface of more than 2 GiB; split it");
     }
@@ -92,7 +103,6 @@ void LayerWriter::set(Column column, std::span<const std::byte> value) {
 }
 
 void LayerWriter::set_point(const Vec3& position) {
-    begin_row();
     if (!point_) {
         auto point = std::make_unique<OGRPoint>();
         point_ = point.get();
@@ -102,12 +112,10 @@ void LayerWriter::set_point(const Vec3& position) {
 }
 
 void LayerWriter::set_geometry(std::unique_ptr<OGRGeometry> geometry) {
-    begin_row();
     row_->SetGeometryDirectly(geometry.release());
 }
 
 void LayerWriter::write() {
-    begin_row();
     row_->SetFID(++row_number_);
     if (layer_->CreateFeature(row_.get()) != OGRERR_NONE) {
         throw Error("cannot write " + file_ + because(scope_));

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/gdal_dataset.hpp"
@@ -26,15 +27,17 @@ using Column = int;
 
 class LayerWriter {
   public:
-    /// Creates the layer. Throws Error, naming the file, as do all functions that write.
-    LayerWriter(GDALDataset& dataset, const GdalScope& scope, const std::string& file, const char* name,
+    LayerWriter(GDALDataset& dataset, const GdalScope& scope, std::string file, const char* name,
                 OGRwkbGeometryType type, const OGRSpatialReference* reference);
 
-    /// Columns, before the first row.
+    /// Columns, then the layer with them.
     Column number(const std::string& name) { return add(name, OFTReal); }
     Column integer(const std::string& name) { return add(name, OFTInteger64); }
     Column text(const std::string& name) { return add(name, OFTString); }
     Column bytes(const std::string& name) { return add(name, OFTBinary); }
+
+    /// Throws Error, naming the file, as do all functions that write.
+    void create();
 
     /// Cells of the row to come; what is not set is null.
     void set(Column column, double value);  ///< NaN is null
@@ -49,11 +52,16 @@ class LayerWriter {
 
   private:
     Column add(const std::string& name, OGRFieldType type);
-    void begin_row();
 
+    GDALDataset& dataset_;
     const GdalScope& scope_;
     std::string file_;
-    OGRLayer* layer_;
+    std::string name_;
+    OGRwkbGeometryType type_;
+    const OGRSpatialReference* reference_;
+    bool postgis_;
+    std::vector<std::pair<std::string, OGRFieldType>> columns_;
+    OGRLayer* layer_ = nullptr;
     std::unique_ptr<OGRFeature> row_;
     OGRPoint* point_ = nullptr;
     std::int64_t row_number_ = 0;

@@ -174,7 +174,7 @@ std::string fit_column(const std::string& name) {
     }
     for (char& c : result) {
         const bool odd = static_cast<unsigned char>(c) < ' ' || c == 0x7F ||
-                         std::string_view("\"'`\\;%").find(c) != std::string_view::npos;
+                         std::string_view("\"'`\\;%,=").find(c) != std::string_view::npos;
         c = odd ? '_' : c;
     }
     const std::size_t first = result.find_first_not_of(' ');

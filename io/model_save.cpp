@@ -156,6 +156,7 @@ void ModelWriter::set_values(LayerWriter& layer, const std::vector<Column>& colu
 void ModelWriter::write_boreholes() {
     LayerWriter layer = this->layer(schema::boreholes, wkbLineStringZM);
     const schema::BoreholeColumns columns(layer);
+    layer.create();
     for (const Borehole& borehole : model_.boreholes) {
         const Vec3 collar = world(borehole.collar);
         layer.set(columns.id, borehole.id);
@@ -177,6 +178,7 @@ void ModelWriter::write_boreholes() {
 void ModelWriter::write_samples() {
     LayerWriter layer = this->layer(schema::samples, wkbPoint25D);
     const schema::SampleColumns columns(layer, model_.properties, columns_);
+    layer.create();
     const Samples& samples = model_.samples;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (samples.borehole[i] >= 0) {
@@ -239,6 +241,7 @@ std::vector<Seed> ModelWriter::seeds_among_vertices(std::size_t fault) const {
 void ModelWriter::write_surfaces() {
     LayerWriter layer = this->layer(schema::surfaces, wkbMultiPolygon25D);
     const schema::SurfaceColumns columns(layer);
+    layer.create();
     for (const Surface& surface : model_.surfaces) {
         const char* const kinds[] = {"fault", "horizon", "topography"};
         set_mesh(layer, columns, surface);
@@ -275,6 +278,7 @@ void ModelWriter::write_surfaces() {
 void ModelWriter::write_vertices() {
     LayerWriter layer = this->layer(schema::vertices, wkbPoint25D);
     const schema::VertexColumns columns(layer, model_.properties, columns_);
+    layer.create();
     const std::string roles[] = {"sample", "seed", "domain", "inserted"};
     for (std::size_t i = 0; i < model_.vertices.size(); ++i) {
         const Vertex& vertex = model_.vertices[i];
@@ -295,6 +299,7 @@ void ModelWriter::write_vertices() {
 void ModelWriter::write_meta() {
     LayerWriter layer = this->layer(schema::meta, wkbNone);
     const schema::MetaColumns columns(layer);
+    layer.create();
     for (const auto& [key, value] : to_meta(model_, columns_)) {
         layer.set(columns.key, key);
         layer.set(columns.value, value);
@@ -305,14 +310,15 @@ void ModelWriter::write_meta() {
 void ModelWriter::write_journal(const JournalEntry& entry) {
     LayerWriter layer = this->layer(schema::journal, wkbNone);
     const schema::JournalColumns columns(layer);
+    layer.create();
     layer.set(columns.edit, entry.edit);
     layer.set(columns.time, entry.time.empty() ? iso8601(current_time(), "%Y-%m-%dT%H:%M:%SZ") : entry.time);
     layer.set(columns.command, entry.command);
     layer.set(columns.arguments, entry.arguments);
     layer.write();
     LayerWriter changes = this->layer(schema::changes, wkbNone);
-    const schema::ChangeColumns change_columns(changes);
-    static_cast<void>(change_columns);
+    [[maybe_unused]] const schema::ChangeColumns change_columns(changes);
+    changes.create();
 }
 
 [[noreturn]] void fail(const std::string& path, const GdalScope& scope) {

@@ -555,3 +555,22 @@ TEST_CASE("A million vertices are stored and loaded in seconds", "[.][benchmark]
     CHECK(save < 20);
     CHECK(load < 20);
 }
+
+TEST_CASE("X3: a model stored in PostGIS reloads to the same model") {
+    // "PG:host=… dbname=…" of a database with PostGIS that may be written to.
+    const char* const database = std::getenv("TERRATET_TEST_POSTGIS");
+    if (!database) {
+        WARN("TERRATET_TEST_POSTGIS is not set: PostGIS not tested");
+        return;
+    }
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        INFO("seed " << seed);
+        const Model model = testing::random_model(seed);
+        save_model(database, model, entry, true);
+        REQUIRE(is_model(database));
+        const Model loaded = load_model(database);
+        check_same(model, loaded);
+        CHECK(load_journal(database).size() == 1);
+    }
+    CHECK_THROWS_WITH(save_model(database, plain_model(), entry), Contains("holds a model already"));
+}

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <regex>
 #include <set>
 #include <span>
+#include <string_view>
 
 #include "io/gdal_dataset.hpp"
 #include "tess/error.hpp"
@@ -73,9 +74,17 @@ Crs crs_of(OGRLayer& layer) {
     return crs;
 }
 
+bool all_digits(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// Empty, or named by the driver for want of a name: field_3 (CSV), Field3 (XLSX).
 bool is_unnamed(const std::string& column) {
-    static const std::regex generated("field_?[0-9]+", std::regex::icase);
-    return column.empty() || std::regex_match(column, generated);
+    if (column.empty()) {
+        return true;
+    }
+    const std::string_view rest = std::string_view(column).substr(std::min<std::size_t>(column.size(), 5));
+    return EQUALN(column.c_str(), "field", 5) && all_digits(rest.starts_with('_') ? rest.substr(1) : rest);
 }
 
 bool has_no_header(const Table& table) {
@@ -178,17 +187,19 @@ void drop_empty_columns(Table& table) {
 enum class Comma { none, ambiguous, decimal, other };
 
 Comma comma_in(const std::string& cell) {
-    static const std::regex decimal(R"([+-]?(\d*),(\d+)([eE][+-]?\d+)?)");
-    if (cell.find(',') == std::string::npos) {
-        return cell.find('.') == std::string::npos || !parse_number(cell) ? Comma::none : Comma::other;
+    const std::size_t comma = cell.find(',');
+    if (comma == std::string::npos) {
+        return cell.find('.') != std::string::npos && parse_number(cell) ? Comma::other : Comma::none;
     }
-    std::smatch parts;
-    if (!std::regex_match(cell, parts, decimal)) {
+    std::string with_point = cell;
+    with_point[comma] = '.';
+    if (comma + 1 == cell.size() || !parse_number(with_point)) {
         return Comma::other;
     }
-    const auto whole = parts[1].str();
-    const bool thousands =
-        parts[2].length() == 3 && !whole.empty() && whole.size() <= 3 && whole != "0" && parts[3].length() == 0;
+    const std::string_view whole = std::string_view(cell).substr(0, comma);
+    const std::string_view rest = std::string_view(cell).substr(comma + 1);
+    const bool thousands = all_digits(rest) && rest.size() == 3 && whole.size() <= 4 && !whole.empty() &&
+                           all_digits(whole.substr(whole.front() == '-' ? 1 : 0)) && whole != "0" && whole != "-0";
     return thousands ? Comma::ambiguous : Comma::decimal;
 }
 

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <utility>
 
 #include "tess/error.hpp"
@@ -75,6 +74,20 @@ bool is_connection(const std::string& path) {
     return path.starts_with("PG:");
 }
 
+/// A connection string with `password=…` masked, quoted or not.
+std::string without_password(std::string text) {
+    const std::string key = "password=";
+    const std::size_t begin = text.find(key);
+    if (begin == std::string::npos) {
+        return text;
+    }
+    const std::size_t value = begin + key.size();
+    const bool quoted = value < text.size() && text[value] == '\'';
+    const std::size_t end = text.find(quoted ? '\'' : ' ', value + (quoted ? 1 : 0));
+    const std::size_t last = end == std::string::npos ? text.size() : end + (quoted ? 1 : 0);
+    return text.replace(value, last - value, "***");
+}
+
 struct Unit {
     const char* name;
     double metres;
@@ -93,8 +106,7 @@ constexpr std::array<Unit, 9> units{{{"mm", 0.001},
 }  // namespace
 
 std::string Source::describe() const {
-    const std::string shown =
-        is_connection(path) ? std::regex_replace(path, std::regex(R"((password\s*=\s*)('[^']*'|\S+))"), "$1***") : path;
+    const std::string shown = is_connection(path) ? without_password(path) : path;
     return layer.empty() ? shown : shown + " (layer " + layer + ")";
 }
 

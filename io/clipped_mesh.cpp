@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/clipped_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace terratet {
 namespace {
 
 using Tet = std::array<std::uint32_t, 4>;
-using Fate = ClippedMesh::Fate;
+enum class Fate : std::uint8_t { dropped, whole, cut };
+
+/// Corners of facet k as seen from outside the cell.
+constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// One side of the extent; what is inside has a distance ≥ 0.
 struct Plane {
@@ -39,12 +44,14 @@ class Clipper {
 
     ClippedMesh run() {
         const std::size_t n = view_.mesh.cells.size();
-        result_.fate.assign(n, Fate::dropped);
+        fate_.assign(n, Fate::dropped);
+        first_piece_.resize(n);
         for (std::size_t c = 0; c < n; ++c) {
             clip(static_cast<std::uint32_t>(c));
         }
-        label_regions();
         compact();
+        find_facets();
+        label_regions();
         return std::move(result_);
     }
 
@@ -62,7 +69,8 @@ class Clipper {
         if (pieces_.empty()) {
             return;
         }
-        result_.fate[cell] = touched ? Fate::cut : Fate::whole;
+        fate_[cell] = touched ? Fate::cut : Fate::whole;
+        first_piece_[cell] = static_cast<std::uint32_t>(result_.cells.size());
         for (const Tet& piece : pieces_) {
             result_.cells.push_back(piece);
             result_.parent.push_back(cell);
@@ -156,32 +164,83 @@ class Clipper {
         add_pyramid(a[first], {a[second], a[third], b[third], b[second]});
     }
 
-    /// Cells whose centroid is outside have no region; what of them is inside continues a neighbour's.
-    void label_regions() {
-        std::vector<std::int32_t> region = view_.cells.region;
-        std::vector<std::uint32_t> front;
-        for (std::uint32_t c = 0; c < region.size(); ++c) {
-            if (region[c] >= 0) {
-                front.push_back(c);
-            }
-        }
-        std::vector<std::uint32_t> reached;
-        while (!front.empty()) {
-            reached.clear();
-            for (const std::uint32_t c : front) {
-                for (const std::int32_t neighbour : view_.mesh.neighbours[c]) {
-                    const auto n = static_cast<std::size_t>(neighbour);
-                    if (neighbour >= 0 && region[n] < 0 && view_.cells.fault[n] < 0 &&
-                        result_.fate[n] != Fate::dropped) {
-                        region[n] = region[c];
-                        reached.push_back(static_cast<std::uint32_t>(n));
-                    }
+    [[nodiscard]] bool is_gap(std::size_t cell) const { return view_.cells.fault[result_.parent[cell]] >= 0; }
+
+    /// The whole cell beyond facet k of a whole cell; −1 if there is none there. A whole cell keeps the order of its
+    /// corners, so its facet k is its parent's.
+    [[nodiscard]] std::int64_t whole_beyond(std::size_t cell, std::size_t k) const {
+        const std::uint32_t parent = result_.parent[cell];
+        const std::int32_t neighbour = view_.mesh.neighbours[parent][k];
+        const bool both =
+            fate_[parent] == Fate::whole && neighbour >= 0 && fate_[static_cast<std::size_t>(neighbour)] == Fate::whole;
+        return both ? std::int64_t{first_piece_[static_cast<std::size_t>(neighbour)]} : -1;
+    }
+
+    /// Between whole cells by the tessellation's own neighbours; of pieces, few of all, by sorting.
+    void find_facets() {
+        struct Side {
+            Triangle key;
+            ClippedMesh::Facet facet;
+        };
+        std::vector<Side> sides;
+        for (std::uint32_t c = 0; c < result_.cells.size(); ++c) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Tet& cell = result_.cells[c];
+                const Triangle corners{cell[outward[k][0]], cell[outward[k][1]], cell[outward[k][2]]};
+                const std::int64_t beyond = whole_beyond(c, k);
+                if (beyond < 0) {
+                    Triangle key = corners;
+                    std::sort(key.begin(), key.end());
+                    sides.push_back({key, {corners, c, -1}});
+                } else if (beyond > c && is_gap(c) != is_gap(static_cast<std::size_t>(beyond))) {
+                    result_.facets.push_back({corners, c, beyond});
                 }
             }
-            std::swap(front, reached);
         }
-        for (const std::uint32_t cell : result_.parent) {
-            result_.region.push_back(region[cell]);
+        std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            ClippedMesh::Facet facet = sides[i].facet;
+            if (i + 1 < sides.size() && sides[i].key == sides[i + 1].key) {
+                facet.beyond = sides[++i].facet.cell;
+            }
+            result_.facets.push_back(facet);
+        }
+    }
+
+    /// Connected components of non-gap cells; each is named after the smallest region among its cells.
+    void label_regions() {
+        const std::size_t n = result_.cells.size();
+        std::vector<std::uint32_t> leader(n);
+        std::iota(leader.begin(), leader.end(), 0U);
+        const auto find = [&](std::uint32_t c) {
+            while (leader[c] != c) {
+                c = leader[c] = leader[leader[c]];
+            }
+            return c;
+        };
+        const auto join = [&](std::uint32_t a, std::int64_t b) {
+            if (b >= 0 && !is_gap(a) && !is_gap(static_cast<std::size_t>(b))) {
+                const auto [lo, hi] = std::minmax({find(a), find(static_cast<std::uint32_t>(b))});
+                leader[hi] = lo;
+            }
+        };
+        for (std::uint32_t c = 0; c < n; ++c) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                join(c, whole_beyond(c, k));
+            }
+        }
+        for (const ClippedMesh::Facet& facet : result_.facets) {
+            join(facet.cell, facet.beyond);
+        }
+        std::vector<std::int32_t> name(n, -1);
+        for (std::uint32_t c = 0; c < n; ++c) {
+            const std::int32_t region = view_.cells.region[result_.parent[c]];
+            std::int32_t& best = name[find(c)];
+            best = region >= 0 && (best < 0 || region < best) ? region : best;
+        }
+        result_.region.resize(n);
+        for (std::uint32_t c = 0; c < n; ++c) {
+            result_.region[c] = is_gap(c) ? -1 : name[find(c)];
         }
     }
 
@@ -213,6 +272,8 @@ class Clipper {
     double on_plane_ = 0;
     std::vector<Vec3> points_;
     std::unordered_map<std::uint64_t, std::size_t> cut_of_edge_;
+    std::vector<Fate> fate_;                  ///< of each of the tessellation's cells
+    std::vector<std::uint32_t> first_piece_;  ///< of each that is not dropped, in result_.cells
     std::vector<Tet> pieces_;
     std::vector<Tet> next_;
     ClippedMesh result_;
@@ -225,7 +286,7 @@ std::vector<Vertex> place_vertices(const ClippedMesh& mesh, const Model& model) 
     for (const auto& [a, b, t] : mesh.cuts) {
         const Vertex& near = vertices[t <= 0.5 ? a : b];
         const Vertex& far = vertices[t <= 0.5 ? b : a];
-        const bool along = near.role == Role::seed && far.role == Role::seed && near.owner == far.owner;
+        const bool along = near.side != 0 && far.side != 0 && near.owner == far.owner;  // both of one fault
         Vertex cut;
         cut.role = Role::domain;
         cut.owner = along ? near.owner : -1;

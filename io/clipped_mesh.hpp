@@ -23,16 +23,22 @@ struct ClippedMesh {
         Place a, b;
         double t;  ///< 0 at a, 1 at b
     };
-    enum class Fate : std::uint8_t { dropped, whole, cut };
+    /// A facet as seen from outside `cell`.
+    struct Facet {
+        Triangle corners;     ///< indices into points
+        std::uint32_t cell;   ///< index into cells
+        std::int64_t beyond;  ///< the cell on the other side; −1: none, the facet lies on the extent's faces
+    };
 
     std::vector<Vec3> points;                         ///< frame-local, each used by a cell
     std::vector<Place> place;                         ///< of each point
     std::vector<Cut> cuts;                            ///< place model.vertices.size() + i is cuts[i]
     std::vector<std::array<std::uint32_t, 4>> cells;  ///< indices into points, positively oriented
     std::vector<std::uint32_t> parent;                ///< of each cell, the tessellation's cell; ascending
-    std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. The part inside the extent of a
-                                       ///< cell whose centroid is outside belongs to the block it continues
-    std::vector<Fate> fate;            ///< of each of the tessellation's cells
+    std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. What is connected within the extent
+                                       ///< is one region, though a cell's centroid lie outside
+    std::vector<Facet> facets;         ///< on the extent's faces, between gap and other cells, and between
+                                       ///< pieces; each once
 
     /// A property's values at the points, in measured units. Cuts are interpolated linearly in the property's scale; a
     /// category, and an edge across a fault, take the nearer end's value.

@@ -14,79 +14,6 @@
 namespace terratet {
 namespace {
 
-/// A facet between two labels, seen from one side: its corners turn counter-clockwise as seen from outside the cell.
-struct Facet {
-    Triangle corners;     ///< of ClippedMesh::points
-    std::int32_t region;  ///< of the cell whose facet it is
-};
-
-struct Facets {
-    std::vector<Facet> outer;  ///< on the extent's faces
-    std::vector<Facet> walls;  ///< between a region and a gap or another region, once from each region
-};
-
-/// Corners of facet k as seen from outside the cell.
-constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-/// One side of a facet, to be matched with the other.
-struct Half {
-    Triangle key;  ///< sorted
-    Triangle corners;
-    std::int32_t region;
-};
-
-/// Sides of all facets that may be on the extent's faces or between regions: most cells lie whole among cells of their
-/// own region, and their facets need not be looked at.
-std::vector<Half> candidate_halves(const ModelView& view, const ClippedMesh& clipped) {
-    using Fate = ClippedMesh::Fate;
-    std::vector<std::int32_t> region_of(clipped.fate.size(), -1);
-    for (std::size_t c = 0; c < clipped.cells.size(); ++c) {
-        region_of[clipped.parent[c]] = clipped.region[c];
-    }
-    std::vector<Half> halves;
-    for (std::size_t c = 0; c < clipped.cells.size(); ++c) {
-        const std::uint32_t parent = clipped.parent[c];
-        for (std::size_t k = 0; k < 4; ++k) {
-            // A whole cell keeps the order of its corners: its facet k is its parent's.
-            const std::int32_t neighbour = view.mesh.neighbours[parent][k];
-            if (clipped.fate[parent] == Fate::whole && neighbour >= 0) {
-                const auto n = static_cast<std::size_t>(neighbour);
-                if (clipped.fate[n] == Fate::whole && region_of[n] == clipped.region[c]) {
-                    continue;
-                }
-            }
-            const auto& cell = clipped.cells[c];
-            Half half{{}, {cell[outward[k][0]], cell[outward[k][1]], cell[outward[k][2]]}, clipped.region[c]};
-            half.key = half.corners;
-            std::sort(half.key.begin(), half.key.end());
-            halves.push_back(half);
-        }
-    }
-    return halves;
-}
-
-Facets find_facets(const ModelView& view, const ClippedMesh& clipped) {
-    std::vector<Half> halves = candidate_halves(view, clipped);
-    std::stable_sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.key < b.key; });
-    Facets facets;
-    for (std::size_t i = 0; i < halves.size();) {
-        if (i + 1 == halves.size() || halves[i].key != halves[i + 1].key) {
-            facets.outer.push_back({halves[i].corners, halves[i].region});
-            ++i;
-            continue;
-        }
-        if (halves[i].region != halves[i + 1].region) {
-            for (const Half& half : {halves[i], halves[i + 1]}) {
-                if (half.region >= 0) {
-                    facets.walls.push_back({half.corners, half.region});
-                }
-            }
-        }
-        i += 2;
-    }
-    return facets;
-}
-
 Vec3 facet_normal(const ClippedMesh& clipped, const Triangle& t) {
     return cross(clipped.points[t[1]] - clipped.points[t[0]], clipped.points[t[2]] - clipped.points[t[0]]);
 }
@@ -167,28 +94,37 @@ int box_face(const Vec3& normal) {
 
 std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneFrame& frame) {
     const ClippedMesh clipped = clip_to_extent(view);
-    const Facets facets = find_facets(view, clipped);
     const auto values = all_values(view, clipped);
 
     PartBuilder boundary("domain boundary", clipped, frame, values);
-    for (const Facet& facet : facets.outer) {
+    std::map<std::int32_t, PartBuilder> regions;
+    const auto add_wall = [&](const Triangle& corners, std::int32_t region) {
+        if (region >= 0) {
+            const auto [entry, fresh] =
+                regions.try_emplace(region, "region " + std::to_string(region), clipped, frame, values);
+            entry->second.add(corners, 0);
+        }
+    };
+    for (const ClippedMesh::Facet& facet : clipped.facets) {
         const auto& [a, b, c] = facet.corners;
-        boundary.add({a, c, b}, box_face(facet_normal(clipped, facet.corners)));
+        if (facet.beyond < 0) {
+            boundary.add({a, c, b}, box_face(facet_normal(clipped, facet.corners)));
+        } else if (const std::int32_t here = clipped.region[facet.cell],
+                   there = clipped.region[static_cast<std::size_t>(facet.beyond)];
+                   here != there) {
+            add_wall({a, b, c}, here);
+            add_wall({a, c, b}, there);
+        }
     }
     std::vector<ScenePart> parts;
     parts.push_back(boundary.take());
     parts.back().double_sided = false;
     parts.back().lit = false;
-
-    std::vector<PartBuilder> regions;
-    for (std::int32_t region = 0; region < view.cells.region_count; ++region) {
-        regions.emplace_back("region " + std::to_string(region), clipped, frame, values);
-    }
-    for (const Facet& wall : facets.walls) {
-        regions[static_cast<std::size_t>(wall.region)].add(wall.corners, 0);
-    }
-    for (PartBuilder& region : regions) {
-        parts.push_back(region.take());
+    if (regions.size() > 1) {
+        for (auto& [region, builder] : regions) {
+            parts.push_back(builder.take());
+            parts.back().double_sided = false;
+        }
     }
     return parts;
 }
@@ -196,8 +132,10 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
 ScenePart fault_sheet(const Fault& fault, std::size_t index, const SceneFrame& frame) {
     ScenePart part;
     part.name = "fault: " + fault.name;
-    part.color = class_color(index + 5);  // vermilion first
-    part.opacity = 0.55;
+    // Frosted glass with a tint: a strong colour would turn what is seen through it into mud.
+    const Color tint = class_color(index + 5);
+    part.color = {0.4 + 0.6 * tint.r, 0.4 + 0.6 * tint.g, 0.4 + 0.6 * tint.b};
+    part.opacity = 0.5;
     part.triangles = fault.sheet.triangles;
     part.normals.resize(fault.sheet.vertices.size());
     for (const Vec3& vertex : fault.sheet.vertices) {

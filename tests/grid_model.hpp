@@ -94,6 +94,9 @@ struct GridModel {
         Fault fault;
         fault.name = "BFZ \"100\"";
         fault.width = gap;
+        fault.spacing = 42;
+        fault.covering_radius = 30;
+        fault.protection_radius = 31;
         constexpr int steps = 12;
         for (int i = 0; i <= steps; ++i) {
             for (int j = 0; j <= steps; ++j) {

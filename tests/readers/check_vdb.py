@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads a VDB file with OpenVDB's Python module and compares voxels with the tessellation in a VTU file of the same model.
+
+check_vdb.py VDB VTU [--active N] [--local] [--samples 20]
+
+For each grid, random active voxels must agree to 1e-5 with the linear function of the cell that holds their centre,
+interpolated here, by numpy, from the VTU: in log10 for a log10 property, the class of the largest weight for a category.
+In a gap cell only the vertices on the side of the nearest one count. --active: voxels that the first grid must have.
+--local: the VDB was written with its local origin, which its metadata must then give.
+"""
+import argparse
+import sys
+
+import numpy
+import pyopenvdb
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+from check_vtu import read, strings, tetrahedra
+
+
+class Mesh:
+    def __init__(self, path):
+        grid = read(path)
+        self.points = vtk_to_numpy(grid.GetPoints().GetData())
+        self.cells = tetrahedra(grid)
+        self.side = vtk_to_numpy(grid.GetPointData().GetArray("side"))
+        self.fault = vtk_to_numpy(grid.GetCellData().GetArray("fault"))
+        self.names = strings(grid, "Properties")
+        self.scales = dict(zip(self.names, strings(grid, "PropertyScales")))
+        self.values = {name: vtk_to_numpy(grid.GetPointData().GetArray(name)) for name in self.names}
+        self.crs = strings(grid, "CRS")[0]
+        corners = self.points[self.cells]
+        self.low, self.high = corners.min(axis=1), corners.max(axis=1)
+
+    def cells_at(self, p):
+        """Cells that hold p, with its barycentric coordinates; more than one where p is on a facet."""
+        found = []
+        for c in numpy.flatnonzero(((self.low <= p) & (p <= self.high)).all(axis=1)):
+            corners = self.points[self.cells[c]] - p
+            matrix = (corners[1:] - corners[0]).T
+            last = numpy.linalg.solve(matrix, -corners[0])
+            weights = numpy.concatenate([[1 - last.sum()], last])
+            if weights.min() >= -1e-9:
+                found.append((c, weights))
+        return found
+
+    def value(self, name, cell, weights, p):
+        vertices = self.cells[cell]
+        if self.fault[cell] >= 0:
+            nearest = vertices[numpy.argmin(((self.points[vertices] - p) ** 2).sum(axis=1))]
+            weights = numpy.where(self.side[vertices] == self.side[nearest], weights.clip(0), 0)
+            weights = weights / weights.sum()
+        values = self.values[name][vertices]
+        if self.scales[name] == "categorical":
+            return values[numpy.argmax(weights)]
+        if self.scales[name] == "log10":
+            return 10 ** (weights @ numpy.log10(values))
+        return weights @ values
+
+
+def active_voxels(grid):
+    voxels = []
+    for item in grid.citerOnValues():
+        assert item.count == 1, "an active tile: a constant that the leaves should hold"
+        voxels.append((*item.min, item.value))
+    return voxels
+
+
+def check_grid(name, grid, mesh, shift, samples):
+    voxels = active_voxels(grid)
+    values = numpy.array([v[3] for v in voxels])
+    assert numpy.isfinite(values).all(), f"{name}: a value that is not a number is active"
+    scale = mesh.scales[name]
+    spread = numpy.ptp(values) or 1
+    random = numpy.random.default_rng(5)
+    worst = 0
+    for index in random.choice(len(voxels), size=min(samples, len(voxels)), replace=False):
+        i, j, k, value = voxels[index]
+        p = numpy.array(grid.transform.indexToWorld((i, j, k))) + shift
+        candidates = mesh.cells_at(p)
+        assert candidates, f"{name}: active voxel {(i, j, k)} at {p} is in no cell"
+        errors = []
+        for cell, weights in candidates:
+            expected = mesh.value(name, cell, weights, p)
+            if scale == "log10":
+                errors.append(abs(numpy.log10(value) - numpy.log10(expected)))
+            elif scale == "categorical":
+                errors.append(0 if value == expected else 1)
+            else:
+                errors.append(abs(value - expected) / max(abs(expected), spread))
+        worst = max(worst, min(errors))
+        assert min(errors) < 1e-5, f"{name}: voxel {(i, j, k)} has {value}, linear interpolation gives {expected}"
+    return len(voxels), worst
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("vdb")
+    arguments.add_argument("vtu")
+    arguments.add_argument("--active", type=int)
+    arguments.add_argument("--local", action="store_true")
+    arguments.add_argument("--samples", type=int, default=20)
+    wanted = arguments.parse_args()
+
+    mesh = Mesh(wanted.vtu)
+    grids, metadata = pyopenvdb.readAll(wanted.vdb)
+    assert metadata["crs"] == mesh.crs, "the file's CRS is not the mesh's"
+    grids = {grid.name: grid for grid in grids}
+    assert sorted(grids) == sorted(mesh.names), f"grids {sorted(grids)} for {mesh.names}"
+    for number, grid in enumerate(grids[name] for name in mesh.names):
+        assert isinstance(grid, pyopenvdb.FloatGrid), f"{grid.name} is no FloatGrid"
+        assert grid["crs"] == mesh.crs and grid["scale"] == mesh.scales[grid.name]
+        origin = numpy.array(grid["origin"])
+        assert wanted.local == bool(origin.any()), f"{grid.name}: origin is {origin}"
+        count, worst = check_grid(grid.name, grid, mesh, origin, wanted.samples)
+        assert number > 0 or wanted.active in (None, count), f"{count} active voxels instead of {wanted.active}"
+        print(f"{wanted.vdb}: {grid.name!r} [{grid['unit']}] {count} active voxels, largest error {worst:.1e}")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(f"check_vdb.py: {error}")

@@ -23,9 +23,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
+#include "io/gocad_words.hpp"
 #include "io/read_surfaces.hpp"
 #include "io/rejections.hpp"
 #include "io/text_lines.hpp"
@@ -33,89 +33,6 @@
 
 namespace terratet {
 namespace {
-
-using VertexId = std::uint64_t;
-
-/// Vertex index by id. Ids nearly always count up, so a plain array holds them; others go to a tree, whose cost no
-/// choice of ids can make quadratic.
-class IdTable {
-  public:
-    void set(VertexId id, std::uint32_t index) {
-        ++count_;
-        if (id >= 2 * count_ + 1024) {
-            sparse_[id] = index;
-            return;
-        }
-        if (id >= dense_.size()) {
-            dense_.resize(id + 1, none);
-        }
-        dense_[id] = index;
-    }
-
-    [[nodiscard]] std::optional<std::uint32_t> find(VertexId id) const {
-        if (id < dense_.size() && dense_[id] != none) {
-            return dense_[id];
-        }
-        const auto found = sparse_.find(id);
-        return found == sparse_.end() ? std::nullopt : std::optional(found->second);
-    }
-
-  private:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> dense_;
-    std::map<VertexId, std::uint32_t> sparse_;
-    std::size_t count_ = 0;
-};
-
-/// Metres of a unit by its names in GOCAD files; nullopt for "unitless", "none" and what is not known.
-std::optional<double> metres_per(std::string_view unit) {
-    static const std::map<std::string, double, std::less<>> known = {{"m", 1},
-                                                                     {"meter", 1},
-                                                                     {"meters", 1},
-                                                                     {"metre", 1},
-                                                                     {"metres", 1},
-                                                                     {"km", 1000},
-                                                                     {"kilometer", 1000},
-                                                                     {"kilometers", 1000},
-                                                                     {"kilometre", 1000},
-                                                                     {"kilometres", 1000},
-                                                                     {"cm", 0.01},
-                                                                     {"mm", 0.001},
-                                                                     {"in", 0.0254},
-                                                                     {"inch", 0.0254},
-                                                                     {"inches", 0.0254},
-                                                                     {"ft", 0.3048},
-                                                                     {"feet", 0.3048},
-                                                                     {"foot", 0.3048},
-                                                                     {"yd", 0.9144},
-                                                                     {"ftus", 1200.0 / 3937},
-                                                                     {"us-ft", 1200.0 / 3937}};
-    std::string lower(unit);
-    for (char& c : lower) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    const auto found = known.find(lower);
-    return found == known.end() ? std::nullopt : std::optional(found->second);
-}
-
-/// What a file says that is neither needed nor a sign of damage.
-bool is_ignorable(std::string_view keyword) {
-    static const std::set<std::string_view> known = {"BSTONE",
-                                                     "BORDER",
-                                                     "PROPERTIES",
-                                                     "PROP_LEGAL_RANGES",
-                                                     "NO_DATA_VALUES",
-                                                     "PROPERTY_CLASSES",
-                                                     "PROPERTY_KINDS",
-                                                     "PROPERTY_SUBCLASSES",
-                                                     "ESIZES",
-                                                     "UNITS",
-                                                     "GEOLOGICAL_TYPE",
-                                                     "GEOLOGICAL_FEATURE",
-                                                     "STRATIGRAPHIC_POSITION",
-                                                     "}"};
-    return keyword.empty() || keyword.front() == '#' || known.contains(keyword);
-}
 
 /// A triangle as the file gives it, until the end of its TFACE: some files name vertices before they define them.
 struct RawTriangle {
@@ -170,7 +87,7 @@ class Parser {
     bool in_system_ = false;
     std::int64_t object_line_ = 0;
     Surface surface_;
-    IdTable ids_;
+    VertexIds ids_;
     std::vector<RawTriangle> face_;
     Vec3 scale_{1, 1, 1};
 };

@@ -325,7 +325,7 @@ Holes read_boreholes(const std::vector<PlacedTable>& collar_tables, const std::v
         }
         const double surveyed = stations.empty() ? 0 : stations.back().depth;
         holes.emplace(id, Hole{id, Trajectory(collar.position, std::move(stations), inputs.desurvey),
-                               collar.unit_factor, std::max(surveyed, collar.length)});
+                               collar.unit_factor, surveyed, collar.length});
     }
     if (by_collar > 0) {
         diagnostics.note(fmt::format("{} of {} holes have no survey and go straight in their collar's direction",

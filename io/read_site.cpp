@@ -230,7 +230,7 @@ std::vector<Crs> unify(Inputs& read, const Crs& target, Diagnostics& diagnostics
 std::vector<Borehole> boreholes_of(const Holes& holes) {
     std::vector<Borehole> boreholes;
     for (const auto& [id, hole] : holes) {
-        Borehole borehole{id, hole.path.position(0), {}, hole.path.polyline_depths(hole.deepest)};
+        Borehole borehole{id, hole.path.position(0), {}, hole.path.polyline_depths(hole.end())};
         for (const double depth : borehole.path_depth) {
             borehole.path.push_back(hole.path.position(depth));
         }

@@ -59,8 +59,8 @@ struct ReadCounts {
     std::size_t faults = 0;
 };
 
-/// Reads everything. Boreholes come with their paths to the deepest record: survey,
-/// log, or the length in the collar table. Samples without any value are left out. Dirty records go to `diagnostics`
+/// Reads everything. Boreholes come with their paths to the deepest log record or the length in the collar table; with
+/// neither, to the last station. Samples without any value are left out. Dirty records go to `diagnostics`
 /// and are skipped; throws InputError when an input cannot be used at all: missing, without CRS, without id or
 /// coordinates, no numeric column, no usable row; UsageError when an option cannot be met: a column or property that is
 /// in no table, a geographic target, logs without boreholes.

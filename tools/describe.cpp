@@ -99,7 +99,8 @@ std::string row_text(const Json& row) {
     if (row.is_object()) {
         for (const auto& [key, value] : row.items()) {
             const std::string text = value.is_array() ? row_text(value) : scalar_text(value);
-            out += (out.empty() ? "" : ", ") + (key == "name" ? text : key + " " + text);
+            out += out.empty() ? "" : ", ";
+            out += key == "name" ? text : fmt::format("{} {}", key, text);
         }
     } else if (row.is_array()) {
         for (const auto& value : row) {

@@ -104,10 +104,9 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",     "utmy",
          "utmnorth", "yutm",      "gridy", "locationy",   "lat",         "latitude", "ylat"},
         // z
-        {"zcollar",  "collarz",   "z",          "zcoord",      "zcoordinate",     "coordz",
-         "elev",     "elevation", "elevationz", "collarelev",  "collarelevation", "rl",
-         "collarrl", "altitude",  "alt",        "groundlevel", "groundelevation", "locagl",
-         "height",   "masl",      "amsl"},
+        {"zcollar",     "collarz",         "z",          "zcoord",          "zcoordinate", "coordz",   "elev",
+         "elevation",   "elevationz",      "collarelev", "collarelevation", "rl",          "collarrl", "altitude",
+         "groundlevel", "groundelevation", "locagl",     "height",          "masl",        "amsl"},
         // from
         {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "defr", "sampfrom", "samplefrom",
          "intervalfrom", "top", "depthtop", "topdepth", "mdtop", "geoltop"},
@@ -119,7 +118,7 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "distance"},
         // azimuth
         {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
-         "azimuthgrid", "gridazimuth", "azimuthtrue"},
+         "azimuthgrid", "gridazimuth"},
         // dip
         {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip"},
         // length

@@ -266,3 +266,23 @@ TEST_CASE("headers and numbers of workbooks read well") {
     const Table bare = read_table({(*folder / "borehole_collar.xlsx").string()});
     CHECK(rows_of(bare).front() == std::vector<std::string>{"foo", "691342.0472", "4164009.011", "134.94", "508.4"});
 }
+
+TEST_CASE("the manual lists every alias of every meaning") {
+    std::ifstream file(TERRATET_SOURCE_DIR "/docs/inputs.md");
+    const std::string manual{std::istreambuf_iterator<char>(file), {}};
+    for (int i = 0; i <= static_cast<int>(Meaning::name); ++i) {
+        const auto meaning = static_cast<Meaning>(i);
+        std::string row = "| " + std::string(to_string(meaning)) + " |";
+        for (const std::string& alias : aliases(meaning)) {
+            CHECK(normal_header(alias) == alias);
+            row += " " + alias;
+        }
+        row += " |\n";
+        std::transform(row.begin() + 2, row.end(), row.begin() + 2,
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        const std::string name = to_string(meaning);
+        std::copy(name.begin(), name.end(), row.begin() + 2);
+        INFO(row);
+        CHECK(manual.find(row) != std::string::npos);
+    }
+}

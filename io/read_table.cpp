@@ -9,6 +9,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string_view>
@@ -235,8 +237,18 @@ void accept_decimal_commas(Table& table) {
     table.notes.push_back(table.file + ": decimal commas read as points in " + names);
 }
 
-bool is_csv(GDALDataset& dataset) {
-    return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "CSV");
+bool has_driver(GDALDataset& dataset, std::initializer_list<const char*> names) {
+    const char* driver = dataset.GetDriver() == nullptr ? "" : dataset.GetDriver()->GetDescription();
+    return std::ranges::any_of(names, [&](const char* name) { return EQUAL(driver, name); });
+}
+
+/// Records are counted from 1: what a statement gives, and what drivers number from 0.
+void number_records(Table& table, GDALDataset& dataset, const Source& source) {
+    if (!source.sql.empty()) {
+        std::iota(table.lines.begin(), table.lines.end(), std::int64_t{1});
+    } else if (has_driver(dataset, {"ESRI Shapefile", "FlatGeobuf", "GeoJSON", "GeoJSONSeq"})) {
+        std::ranges::for_each(table.lines, [](std::int64_t& line) { ++line; });
+    }
 }
 
 /// Is the first row of a table without header one after all? GDAL takes a row with a number in it for data.
@@ -262,10 +274,11 @@ bool names_option(const Source& source, const std::string& key) {
 Table read_once(const Source& source, bool& csv) {
     const GdalScope scope;
     const Dataset dataset = open_vector(source);
-    csv = is_csv(*dataset);
+    csv = has_driver(*dataset, {"CSV"});
     ResultSet result_set;
     OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
     Table table = read_layer(layer, source);
+    number_records(table, *dataset, source);
     if (table.rows() == 0) {
         throw InputError(table.file + ": has no row" +
                          (source.where.empty() ? " below its header" : " that meets where=" + source.where));

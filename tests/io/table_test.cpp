@@ -136,6 +136,8 @@ TEST_CASE("GeoPackage and Shapefile give points, CRS and numbers without artefac
         CHECK(std::ranges::count(rows, std::vector<std::string>{"KR00", "2000", "0.1"}) == 1);
         CHECK(std::ranges::count(rows, std::vector<std::string>{"KR01", "2001", ""}) == 1);
         REQUIRE(table.points.size() == 3);
+        CHECK(std::ranges::min(table.lines) == 1);
+        CHECK(std::ranges::max(table.lines) == 3);
         CHECK(std::ranges::count(table.points, std::optional(Vec3{208001.5, 6797000.25, 7.125})) == 1);
         CHECK_THAT(table.crs.name, Contains("TM35FIN"));
     }
@@ -150,6 +152,8 @@ TEST_CASE("layers are chosen by name, filter or statement") {
     CHECK(
         read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT HOLE_ID, YEAR*2 AS y2 FROM collars")).cells[1][0] ==
         "4000");
+    CHECK(read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT YEAR FROM collars WHERE YEAR>2000")).lines ==
+          std::vector<std::int64_t>{1, 2});
     CHECK_THROWS_WITH(read_table(parse_source((folder / "c.gpkg") + ",layer=holes")), Contains("layers: collars"));
     CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",where=NOT A FILTER(")), InputError);
     CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT nothing FROM nowhere")), InputError);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/read_table.hpp"
 
+#include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
@@ -118,6 +119,11 @@ Table read_layer(OGRLayer& layer, const Source& source) {
     return table;
 }
 
+/// A stream cannot be read twice.
+bool is_stream(const std::string& path) {
+    return path.find("/vsistdin/") != std::string::npos;
+}
+
 /// The line on which each record of a text file begins, as the CSV driver counts records: blank lines are none, and a
 /// record goes on while a quote is open.
 std::vector<std::int64_t> record_lines(const std::string& path) {
@@ -161,12 +167,11 @@ std::vector<std::int64_t> record_lines(const std::string& path) {
     return starts;
 }
 
-/// From the driver's record numbers to lines of the file. A stream cannot be read twice; there records are counted.
+/// From the driver's record numbers to lines of the file; in a stream, records are counted.
 void number_lines(Table& table, const Source& source) {
     const std::string path = source.path.starts_with("CSV:") ? source.path.substr(4) : source.path;
     const std::int64_t header = has_no_header(table) ? 0 : 1;
-    const bool once = path.starts_with("/vsistdin/");
-    const std::vector<std::int64_t> starts = once ? std::vector<std::int64_t>{} : record_lines(path);
+    const std::vector<std::int64_t> starts = is_stream(path) ? std::vector<std::int64_t>{} : record_lines(path);
     for (std::int64_t& line : table.lines) {
         const std::int64_t record = line + header;  // 1-based
         line = record >= 1 && record <= static_cast<std::int64_t>(starts.size())
@@ -272,12 +277,17 @@ bool names_option(const Source& source, const std::string& key) {
 }
 
 Table read_once(const Source& source, bool& csv) {
-    const GdalScope scope;
+    GdalScope scope;
     const Dataset dataset = open_vector(source);
     csv = has_driver(*dataset, {"CSV"});
     ResultSet result_set;
     OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
+    scope.clear();
     Table table = read_layer(layer, source);
+    if (scope.failed()) {  // what came before would pass for the whole
+        throw InputError(
+            fmt::format("{}: reading failed after {} rows ({})", table.file, table.rows(), scope.failure()));
+    }
     number_records(table, *dataset, source);
     if (table.rows() == 0) {
         throw InputError(table.file + ": has no row" +
@@ -291,7 +301,8 @@ Table read_once(const Source& source, bool& csv) {
 Table read_table(const Source& source) {
     bool csv = false;
     Table table = read_once(source, csv);
-    if (csv && has_no_header(table) && !names_option(source, "HEADERS") && first_row_is_header(table)) {
+    const bool untitled = csv && has_no_header(table) && !names_option(source, "HEADERS") && !is_stream(source.path);
+    if (untitled && first_row_is_header(table)) {
         Source titled = source;
         titled.open_options.emplace_back("HEADERS=YES");
         table = read_once(titled, csv);

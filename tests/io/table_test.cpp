@@ -34,7 +34,7 @@ Rows rows_of(const Table& table) {
 }
 
 /// A point layer with a name, a whole number and a real one, in EPSG:3067.
-void write_points(const std::string& driver, const std::string& path, OGRwkbGeometryType type) {
+void write_points(const std::string& driver, const std::string& path, OGRwkbGeometryType type, int count = 3) {
     GDALAllRegister();
     GDALDataset* dataset =
         GetGDALDriverManager()->GetDriverByName(driver.c_str())->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
@@ -45,10 +45,11 @@ void write_points(const std::string& driver, const std::string& path, OGRwkbGeom
     OGRFieldDefn hole("HOLE_ID", OFTString);
     OGRFieldDefn year("YEAR", OFTInteger);
     OGRFieldDefn grade("GRADE", OFTReal);
+    REQUIRE(layer->StartTransaction() == OGRERR_NONE);
     layer->CreateField(&hole);
     layer->CreateField(&year);
     layer->CreateField(&grade);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < count; ++i) {
         const OGRFeatureUniquePtr feature{OGRFeature::CreateFeature(layer->GetLayerDefn())};
         feature->SetField("HOLE_ID", ("KR0" + std::to_string(i)).c_str());
         feature->SetField("YEAR", 2000 + i);
@@ -62,6 +63,7 @@ void write_points(const std::string& driver, const std::string& path, OGRwkbGeom
         feature->SetGeometry(&point);
         REQUIRE(layer->CreateFeature(feature.get()) == OGRERR_NONE);
     }
+    REQUIRE(layer->CommitTransaction() == OGRERR_NONE);
     GDALClose(dataset);
 }
 
@@ -158,6 +160,18 @@ TEST_CASE("layers are chosen by name, filter or statement") {
     CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",where=NOT A FILTER(")), InputError);
     CHECK_THROWS_AS(read_table(parse_source((folder / "c.gpkg") + ",sql=SELECT nothing FROM nowhere")), InputError);
     CHECK_THROWS_WITH(read_table(parse_source((folder / "c.gpkg") + ",where=YEAR>3000")), Contains("no row"));
+}
+
+TEST_CASE("a damaged table is refused rather than read in part") {
+    const testing::TemporaryFolder folder;
+    const std::string path = folder / "c.gpkg";
+    write_points("GPKG", path, wkbPoint25D, 20000);
+    REQUIRE(read_table({path}).rows() == 20000);
+    std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(600 * 1024);
+    file << std::string(40 * 4096, '\xFF');
+    file.close();
+    CHECK_THROWS_WITH(read_table({path}), Contains("reading failed after"));
 }
 
 TEST_CASE("zipped tables are read in place") {

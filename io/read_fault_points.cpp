@@ -130,11 +130,8 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
     const Coordinates where = find_coordinates(table, columns);
     const std::string default_name = source.layer.empty() ? CPLGetBasename(source.path.c_str()) : source.layer;
     const int name_column = find_column(table, Meaning::name, columns);
-    PointsByName groups;
-    {
-        Rejections rejections(diagnostics, table.file);
-        groups = group(table, where, name_column, default_name, rejections);
-    }
+    Rejections rejections(diagnostics, table.file);
+    PointsByName groups = group(table, where, name_column, default_name, rejections);
     if (name_column >= 0 && !is_overridden(columns, "name") && names_nothing(groups)) {
         diagnostics.note(table.file + ": column " + table.columns[static_cast<std::size_t>(name_column)] +
                          " differs from row to row, so it names no faults; all points are taken as one");
@@ -152,9 +149,10 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
         Surface surface =
             geographic ? triangulate_geographic(name, points) : triangulate_in_best_fit_plane(name, points);
         if (surface.triangles.empty()) {
-            diagnostics.reject(table.file, 0,
-                               "\"" + name + "\": " + std::to_string(points.size()) +
-                                   " points that span no surface (three off a line are needed)");
+            rejections.add(0, [&] {
+                return "\"" + name + "\": " + std::to_string(points.size()) +
+                       " points that span no surface (three off a line are needed)";
+            });
             continue;
         }
         if (surface.vertices.size() < points.size()) {
@@ -167,7 +165,8 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
         result.surfaces.push_back(std::move(surface));
     }
     if (result.surfaces.empty()) {
-        throw InputError(table.file + ": no usable surface; points need x, y, z and three of them a name");
+        throw InputError(table.file + ": no usable surface" + rejections.first() +
+                         "; points need x, y, z and three of them a name");
     }
     return result;
 }

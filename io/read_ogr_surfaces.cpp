@@ -233,11 +233,10 @@ RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const Colu
     }
     if (result.surfaces.empty()) {
         throw InputError(
-            source.describe() +
-            (any_flat ? ": its geometries have no z; surfaces in space are needed (TIN Z, PolyhedralSurface Z, "
-                        "MultiPolygon Z, Polygon Z)"
-                      : ": no polygon in it makes a surface; points, TIN Z, PolyhedralSurface Z, MultiPolygon Z "
-                        "or Polygon Z are needed"));
+            source.describe() + (any_flat ? ": its geometries have no z" : ": no polygon makes a surface") +
+            rejections.first() +
+            "; surfaces in space are needed: points with x, y, z, or TIN Z, PolyhedralSurface Z, MultiPolygon Z, "
+            "Polygon Z");
     }
     return result;
 }

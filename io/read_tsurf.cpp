@@ -336,6 +336,7 @@ std::vector<Surface> Parser::parse() {
     }
     if (surfaces_.empty()) {
         throw InputError(file_ + ": no usable GOCAD TSurf in it" + (others.empty() ? "" : ", only " + others) +
+                         rejections_.first() +
                          "; surfaces are objects that begin with GOCAD TSurf and have TRGL lines");
     }
     return std::move(surfaces_);

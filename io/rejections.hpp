@@ -24,11 +24,18 @@ class Rejections {
     Rejections(const Rejections&) = delete;
     Rejections& operator=(const Rejections&) = delete;
 
+    /// The first of them, for the message when nothing usable is left: " (line 3: …)", or empty.
+    [[nodiscard]] const std::string& first() const { return first_; }
+
     /// `reason` is called only when it will be kept.
     template <typename Reason>
     void add(std::int64_t line, const Reason& reason) {
         if (++count_ <= limit) {
-            diagnostics_.reject(file_, line, reason());
+            std::string text = reason();
+            if (count_ == 1) {
+                first_ = " (" + (line > 0 ? "line or record " + std::to_string(line) + ": " : "") + text + ")";
+            }
+            diagnostics_.reject(file_, line, std::move(text));
         }
     }
 
@@ -36,6 +43,7 @@ class Rejections {
     static constexpr std::int64_t limit = 1000;
     Diagnostics& diagnostics_;
     std::string file_;
+    std::string first_;
     std::int64_t count_ = 0;
 };
 

@@ -72,8 +72,8 @@ void resolve_resolution(const Site& site, const BuildOptions& options, Model& mo
     }
     model.criteria.variation.resize(site.properties.size());
     validate(model.criteria);
-    Box3 extent = options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad)
-                                         : options.extent;
+    Box3 extent =
+        options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad) : options.extent;
     extent = {model.frame.snapped(extent.lo), model.frame.snapped(extent.hi)};
     const Vec3 size = extent.size();
     if (std::min({size.x, size.y, size.z}) < model.criteria.l_min) {

@@ -17,14 +17,14 @@
 namespace terratet {
 
 struct BuildOptions {
-    Box3 extent;                   ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
-    double pad = -1;               ///< negative: l_max
-    Criteria criteria;             ///< l_min 0: diagonal/100; l_max 0: 4 l_min
+    Box3 extent;        ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
+    double pad = -1;    ///< negative: l_max
+    Criteria criteria;  ///< l_min 0: diagonal/100; l_max 0: 4 l_min
     DensityMode density = DensityMode::canonical;
     FaultOptions faults;
     RefineOptions refine;
-    bool refine_enabled = true;    ///< false stops after the initial tessellation
-    std::string estimator;         ///< recorded in the model; the source below does the work
+    bool refine_enabled = true;  ///< false stops after the initial tessellation
+    std::string estimator;       ///< recorded in the model; the source below does the work
 };
 
 struct BuildReport {
@@ -43,12 +43,12 @@ struct BuildReport {
     Diagnostics diagnostics;
 };
 
-/// Makes the estimator once samples are merged and faults are prepared: it sees the site's samples and the faults' sheets,
-/// in frame-local coordinates, and both outlive it.
+/// Makes the estimator once samples are merged and faults are prepared: it sees the site's samples and the faults'
+/// sheets, in frame-local coordinates, and both outlive it.
 using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
 
-/// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound is
-/// exceeded. The result does not depend on the order of the site's rows (R6).
+/// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
+/// is exceeded. The result does not depend on the order of the site's rows (R6).
 Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
             const Progress& progress = {});
 

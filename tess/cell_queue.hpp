@@ -4,11 +4,11 @@
 /// \file
 /// The bad cells waiting for treatment. Private to this floor.
 ///
-/// Worst first, by eighths of an octave of the violation; within one such class the latest first, so that work stays where
-/// the caches are warm. The order depends on the order of pushes alone, hence is deterministic when that is.
+/// Worst first, by eighths of an octave of the violation; within one such class the latest first, so that work stays
+/// where the caches are warm. The order depends on the order of pushes alone, hence is deterministic when that is.
 ///
-/// A cell carries the slot of its entry as its tag; whoever destroys a cell calls forget() first, so no entry ever refers
-/// to a cell that is gone.
+/// A cell carries the slot of its entry as its tag; whoever destroys a cell calls forget() first, so no entry ever
+/// refers to a cell that is gone.
 
 #include <cmath>
 #include <optional>

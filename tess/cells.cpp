@@ -28,8 +28,8 @@ JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
     return {cell, points, circumsphere(points)};
 }
 
-/// Why the refiner left a cell as it is: the refiner's own rule, asked again, plus the distance of a projected point, which
-/// needs all vertices.
+/// Why the refiner left a cell as it is: the refiner's own rule, asked again, plus the distance of a projected point,
+/// which needs all vertices.
 class Explainer {
   public:
     Explainer(const Model& model, const TetMesh& mesh)
@@ -103,12 +103,15 @@ bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
     return squared_length(area) > 0;
 }
 
-/// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells are
-/// connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
+/// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells
+/// are connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
 class RegionLabels {
   public:
     RegionLabels(const Model& model, const TetMesh& mesh, CellTable& table)
-        : extent_(model.domain.extent), all_inside_(model.domain.hull == model.domain.extent), mesh_(mesh), table_(table) {}
+        : extent_(model.domain.extent),
+          all_inside_(model.domain.hull == model.domain.extent),
+          mesh_(mesh),
+          table_(table) {}
 
     void run() {
         std::vector<std::int32_t> component(mesh_.cells.size(), -1);
@@ -317,7 +320,8 @@ std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh) {
                 }
             }
             const double measured = to_scale(kind, model.samples.values[property][i]);
-            const double error = kind.kind == Kind::categorical ? (measured == value ? 0.0 : 1.0) : std::abs(value - measured);
+            const double error =
+                kind.kind == Kind::categorical ? (measured == value ? 0.0 : 1.0) : std::abs(value - measured);
             if (!std::isnan(measured) && !std::isnan(value)) {
                 squares[property] += error * error;
                 result[property].max = std::max(result[property].max, error);

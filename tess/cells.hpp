@@ -16,14 +16,14 @@ namespace terratet {
 
 /// Columns in step with TetMesh::cells.
 struct CellTable {
-    std::vector<std::int32_t> region;       ///< fault block, 0…; −1 for gap cells and cells outside the extent
-    std::vector<std::int32_t> fault;        ///< fault whose gap the cell fills; −1 otherwise
-    std::vector<std::uint8_t> in_extent;    ///< 1 when the centroid lies in the extent
-    std::vector<Reason> reason;             ///< why it was left bad; none for good cells
+    std::vector<std::int32_t> region;     ///< fault block, 0…; −1 for gap cells and cells outside the extent
+    std::vector<std::int32_t> fault;      ///< fault whose gap the cell fills; −1 otherwise
+    std::vector<std::uint8_t> in_extent;  ///< 1 when the centroid lies in the extent
+    std::vector<Reason> reason;           ///< why it was left bad; none for good cells
     std::vector<float> radius_edge;
     std::vector<float> aspect;
     std::vector<float> dihedral_min_deg;
-    std::int32_t region_count = 0;          ///< regions are numbered by their smallest cell
+    std::int32_t region_count = 0;  ///< regions are numbered by their smallest cell
 };
 
 /// O(n). `mesh` is the model's own.
@@ -35,16 +35,16 @@ std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const
 /// Numbers of the report over the non-gap cells in the extent (DESIGN §5).
 struct CellStatistics {
     std::size_t vertices = 0;
-    std::size_t tetrahedra = 0;        ///< all cells of the tessellation
+    std::size_t tetrahedra = 0;  ///< all cells of the tessellation
     std::size_t gap_tetrahedra = 0;
-    double skinny_percent = 0;         ///< R/ℓ above radius_edge
-    double flat_percent = 0;           ///< not skinny, β above aspect
-    double bad_percent = 0;            ///< breaks any insertion criterion in force, exempt or not
+    double skinny_percent = 0;  ///< R/ℓ above radius_edge
+    double flat_percent = 0;    ///< not skinny, β above aspect
+    double bad_percent = 0;     ///< breaks any insertion criterion in force, exempt or not
     double dihedral_min_deg = 0;
     double dihedral_p1_deg = 0;
     double dihedral_p5_deg = 0;
     double dihedral_median_deg = 0;
-    double edge_min = 0;               ///< of these cells
+    double edge_min = 0;  ///< of these cells
     double edge_max = 0;
     std::size_t regions = 0;
 };

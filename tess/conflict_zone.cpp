@@ -9,18 +9,20 @@ namespace terratet {
 
 namespace {
 
-/// With a cached centre c̃ within e of the true one c, and d the distance to c:  |d̃² − d²| ≤ 2de + e² ≤ αd² + e²(1 + 1/α).
-/// α also covers the rounding of the radius to single precision, 2⁻²⁴, with room to spare.
+/// With a cached centre c̃ within e of the true one c, and d the distance to c:  |d̃² − d²| ≤ 2de + e² ≤ αd² + e²(1 +
+/// 1/α). α also covers the rounding of the radius to single precision, 2⁻²⁴, with room to spare.
 constexpr double relative_slack = 1e-6;
 
-/// A circumcentre's own rounding error grows as the cell gets flat: |a||b||c| over the determinant measures how much. Up to
-/// this ratio it stays far below single precision.
+/// A circumcentre's own rounding error grows as the cell gets flat: |a||b||c| over the determinant measures how much.
+/// Up to this ratio it stays far below single precision.
 constexpr double largest_condition = 1e5;
 
 }  // namespace
 
 ConflictSearch::ConflictSearch(const delaunay::Triangulation& triangulation, const Box3& domain)
-    : triangulation_(triangulation), centre_(domain.center()), reach_(0.6 * std::max({domain.size().x, domain.size().y, domain.size().z})) {
+    : triangulation_(triangulation),
+      centre_(domain.center()),
+      reach_(0.6 * std::max({domain.size().x, domain.size().y, domain.size().z})) {
     const double rounding = std::sqrt(3.0) * reach_ * 0x1p-23;
     slack_ = rounding * rounding * (1 + 1 / relative_slack);
 }

@@ -32,8 +32,8 @@ bool Criteria::has_variation() const {
 void validate(const Criteria& criteria) {
     require(std::isfinite(criteria.l_min) && criteria.l_min > 0, "--lmin must be a positive length");
     require(std::isfinite(criteria.l_max) && criteria.l_max > 0, "--lmax must be a positive length");
-    require(criteria.l_max >= criteria.l_min, "--lmax (" + std::to_string(criteria.l_max) + ") is below --lmin (" +
-                                                  std::to_string(criteria.l_min) + ")");
+    require(criteria.l_max >= criteria.l_min,
+            "--lmax (" + std::to_string(criteria.l_max) + ") is below --lmin (" + std::to_string(criteria.l_min) + ")");
     require_limit(criteria.radius_edge, 1, "--radius-edge");
     require_limit(criteria.aspect, 3, "--aspect");
     require_limit(criteria.v_min, 0, "--vmin");

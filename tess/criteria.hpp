@@ -12,20 +12,20 @@ namespace terratet {
 
 /// Limits on the variation of one property along an edge, in the property's scale.
 struct VariationLimits {
-    double df_min = 0;         ///< below it along all its edges a cell is smooth: exempt from shape and l_max. 0: never
-    double df_max = 0;         ///< above it along an edge a cell is bad; 0: no limit
+    double df_min = 0;  ///< below it along all its edges a cell is smooth: exempt from shape and l_max. 0: never
+    double df_max = 0;  ///< above it along an edge a cell is bad; 0: no limit
     friend bool operator==(const VariationLimits&, const VariationLimits&) = default;
 };
 
 /// Lengths are in the frame's unit, volumes in its cube. 0 switches a criterion off, except l_min and l_max.
 struct Criteria {
-    double l_min = 0;           ///< no inserted vertex comes nearer than this to another; density of the samples
-    double l_max = 0;           ///< longest edge wanted; guarantee R4 needs l_max ≥ 4 l_min
-    double radius_edge = 2;     ///< largest circumradius over shortest edge R/ℓ; above: skinny
-    double aspect = 8;          ///< largest β = circumradius over inscribed radius (regular cell: 3); above: flat
-    double v_min = 0;           ///< clean-up only: insertion can never enlarge a cell
-    double v_max = 0;           ///< largest volume
-    double dihedral_deg = 5;    ///< clean-up only: smallest dihedral angle
+    double l_min = 0;         ///< no inserted vertex comes nearer than this to another; density of the samples
+    double l_max = 0;         ///< longest edge wanted; guarantee R4 needs l_max ≥ 4 l_min
+    double radius_edge = 2;   ///< largest circumradius over shortest edge R/ℓ; above: skinny
+    double aspect = 8;        ///< largest β = circumradius over inscribed radius (regular cell: 3); above: flat
+    double v_min = 0;         ///< clean-up only: insertion can never enlarge a cell
+    double v_max = 0;         ///< largest volume
+    double dihedral_deg = 5;  ///< clean-up only: smallest dihedral angle
     std::vector<VariationLimits> variation;  ///< one per property of the model; empty: none
 
     [[nodiscard]] bool has_variation() const;  ///< some df_min or df_max is in force

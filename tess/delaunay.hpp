@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The kernel of a tessellation: CGAL's dynamic Delaunay triangulation with our vertex table. Private to this floor; the
-/// only header that names CGAL, included by the few files that insert, remove or walk.
+/// The kernel of a tessellation: CGAL's dynamic Delaunay triangulation with our vertex table. Private to this floor;
+/// the only header that names CGAL, included by the few files that insert, remove or walk.
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -25,9 +25,9 @@ inline constexpr float unknown_radius = std::numeric_limits<float>::quiet_NaN();
 
 /// Scratch for whoever works on the cells; nothing here outlives an operation.
 struct CellInfo {
-    std::array<float, 3> center{};          ///< ConflictSearch's cached circumsphere
+    std::array<float, 3> center{};  ///< ConflictSearch's cached circumsphere
     float squared_radius = unknown_radius;
-    std::uint32_t tag = none;               ///< a slot or number
+    std::uint32_t tag = none;  ///< a slot or number
 };
 
 using CellBase =
@@ -38,8 +38,12 @@ using Cell = Triangulation::Cell_handle;
 using Facet = Triangulation::Facet;
 using VertexHandle = Triangulation::Vertex_handle;
 
-inline Point to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
-inline Vec3 from_cgal(const Point& p) { return {p.x(), p.y(), p.z()}; }
+inline Point to_cgal(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+inline Vec3 from_cgal(const Point& p) {
+    return {p.x(), p.y(), p.z()};
+}
 
 }  // namespace terratet::delaunay
 

@@ -28,8 +28,8 @@ std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vect
 }
 
 /// The paper's dynamic deletion on the Delaunay tessellation of the samples alone. The shortest edge goes first; of its
-/// ends the one with the smaller nearest-neighbour distance, which in a Delaunay tessellation is its second shortest edge:
-/// the shortest is common to both.
+/// ends the one with the smaller nearest-neighbour distance, which in a Delaunay tessellation is its second shortest
+/// edge: the shortest is common to both.
 class DynamicDeletion {
   public:
     DynamicDeletion(const Samples& samples, const std::vector<std::uint32_t>& candidates, double l_min)

@@ -19,8 +19,8 @@ struct Rejected {
 };
 
 struct Diagnostics {
-    std::vector<Rejected> rejected;   ///< records skipped, each with its reason
-    std::vector<std::string> notes;   ///< assumptions made and things changed, for people to read
+    std::vector<Rejected> rejected;  ///< records skipped, each with its reason
+    std::vector<std::string> notes;  ///< assumptions made and things changed, for people to read
 
     void reject(std::string file, std::int64_t line, std::string reason) {
         rejected.push_back({std::move(file), line, std::move(reason)});

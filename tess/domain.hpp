@@ -21,8 +21,9 @@ struct Domain {
     friend bool operator==(const Domain&, const Domain&) = default;
 };
 
-/// Grid points on the faces of the hull box: spacing at most l_max/√2 and, as far as a face allows two rows, never below
-/// l_min; the corners always, other points unless nearer than l_min to one of `obstacles`. Each once, sorted, snapped.
+/// Grid points on the faces of the hull box: spacing at most l_max/√2 and, as far as a face allows two rows, never
+/// below l_min; the corners always, other points unless nearer than l_min to one of `obstacles`. Each once, sorted,
+/// snapped.
 std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
                             const Frame& frame);
 

@@ -13,11 +13,11 @@
 namespace terratet {
 
 struct Frame {
-    std::string crs_wkt;            ///< WKT2 of a projected CRS; empty for a local engineering frame
-    std::string crs_name;           ///< for people: "EPSG:3067 ETRS89 / TM35FIN(E,N)"
-    std::string unit = "metre";     ///< of all three axes
+    std::string crs_wkt;         ///< WKT2 of a projected CRS; empty for a local engineering frame
+    std::string crs_name;        ///< for people: "EPSG:3067 ETRS89 / TM35FIN(E,N)"
+    std::string unit = "metre";  ///< of all three axes
     double metres_per_unit = 1.0;
-    Vec3 origin;                    ///< multiples of 1024, or 0
+    Vec3 origin;  ///< multiples of 1024, or 0
 
     /// True to local: exact for every coordinate that came from to_world() or through snapped().
     [[nodiscard]] Vec3 to_local(const Vec3& world) const { return world - origin; }

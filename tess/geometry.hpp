@@ -25,21 +25,45 @@ struct Vec3 {
     friend auto operator<=>(const Vec3&, const Vec3&) = default;
 };
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec3 operator*(const Vec3& a, double s) { return s * a; }
-inline Vec3 operator/(const Vec3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3 operator-(const Vec3& a) {
+    return {-a.x, -a.y, -a.z};
+}
+inline Vec3 operator*(double s, const Vec3& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+inline Vec3 operator*(const Vec3& a, double s) {
+    return s * a;
+}
+inline Vec3 operator/(const Vec3& a, double s) {
+    return {a.x / s, a.y / s, a.z / s};
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double squared_length(const Vec3& a) { return dot(a, a); }
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-inline double squared_distance(const Vec3& a, const Vec3& b) { return squared_length(a - b); }
-inline double distance(const Vec3& a, const Vec3& b) { return length(a - b); }
-inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline double squared_length(const Vec3& a) {
+    return dot(a, a);
+}
+inline double length(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
+inline double squared_distance(const Vec3& a, const Vec3& b) {
+    return squared_length(a - b);
+}
+inline double distance(const Vec3& a, const Vec3& b) {
+    return length(a - b);
+}
+inline bool is_finite(const Vec3& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// The largest absolute coordinate accepted from outside: beyond it exact predicates lose their guarantees long before
 /// any map projection is meaningful.

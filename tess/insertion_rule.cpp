@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return length(cross(b - a, c - a)) / 2; }
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return length(cross(b - a, c - a)) / 2;
+}
 
 /// β = R/r with r = 3V/A.
 double aspect(const CellPoints& p, double circumradius, double volume) {
@@ -68,7 +70,8 @@ double InsertionRule::variation_violation(const JudgedCell& cell) const {
         const auto& column = values_.values[property];
         for (const auto& [i, j] : cell_edges) {
             // An edge across a fault is exempt: a jump there is what the fault is for.
-            const double df = scaled_difference(properties_[property], column[cell.vertices[i]], column[cell.vertices[j]]);
+            const double df =
+                scaled_difference(properties_[property], column[cell.vertices[i]], column[cell.vertices[j]]);
             if (df > limit * worst && !faults_.crosses_any(cell.points[i], cell.points[j])) {
                 worst = df / limit;
             }

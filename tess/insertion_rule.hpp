@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Rules 1 to 3 of refinement (DESIGN §4.3) as pure functions of one cell: is it bad, and where would its new vertex go?
-/// The refiner acts on them and the cell table explains with them, so a reason code is the very reason the refiner had.
-/// Private to this floor.
+/// Rules 1 to 3 of refinement (DESIGN §4.3) as pure functions of one cell: is it bad, and where would its new vertex
+/// go? The refiner acts on them and the cell table explains with them, so a reason code is the very reason the refiner
+/// had. Private to this floor.
 
 #include <array>
 #include <span>
@@ -40,8 +40,8 @@ class InsertionRule {
     InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame, const FaultProximity& faults,
                   std::span<const Property> properties, const VertexValues& values);
 
-    /// Largest ratio of a measure to its limit over the insertion criteria in force; above 1 the cell is bad. Exact only
-    /// above 1. Exemption as smooth is not considered.
+    /// Largest ratio of a measure to its limit over the insertion criteria in force; above 1 the cell is bad. Exact
+    /// only above 1. Exemption as smooth is not considered.
     [[nodiscard]] double violation(const JudgedCell& cell) const;
 
     /// Below df_min along all edges: exempt from shape and l_max.

@@ -19,8 +19,8 @@ struct CellPosition {
     std::array<double, 4> weights{};  ///< barycentric: at least −1e-9 each, their sum is 1
 };
 
-/// Visibility walk with plain doubles from the last cell found: quick when consecutive points are near. Where rounding makes
-/// it circle, all cells are searched. Nothing for a point outside the mesh.
+/// Visibility walk with plain doubles from the last cell found: quick when consecutive points are near. Where rounding
+/// makes it circle, all cells are searched. Nothing for a point outside the mesh.
 class MeshWalk {
   public:
     explicit MeshWalk(const TetMesh& mesh) : mesh_(mesh) {}

@@ -21,7 +21,8 @@
 
 namespace terratet {
 
-/// What was measured, in one frame: the readers' result. Boreholes sorted by id, samples and surfaces in canonical order.
+/// What was measured, in one frame: the readers' result. Boreholes sorted by id, samples and surfaces in canonical
+/// order.
 struct Site {
     Frame frame;
     std::vector<Property> properties;
@@ -36,10 +37,10 @@ struct Model : Site {
     Criteria criteria;
     DensityMode density = DensityMode::canonical;
     FaultOptions fault_options;
-    std::vector<Fault> faults;        ///< prepared from the surfaces of kind fault
-    std::vector<Vertex> vertices;     ///< ascending id
-    VertexValues vertex_values;       ///< in step with vertices
-    std::string estimator;            ///< its full specification, e.g. "idw:power=2:max_points=12"
+    std::vector<Fault> faults;     ///< prepared from the surfaces of kind fault
+    std::vector<Vertex> vertices;  ///< ascending id
+    VertexValues vertex_values;    ///< in step with vertices
+    std::string estimator;         ///< its full specification, e.g. "idw:power=2:max_points=12"
 };
 
 /// The tessellation of a model's vertices.

@@ -45,7 +45,8 @@ class PointGrid {
     /// Coordinates are at most 1e9: an index needs no more than 21 bits unless the radius is below a millimetre for a
     /// continent; then keys wrap, which only makes buckets larger.
     [[nodiscard]] Index index(const Vec3& p) const {
-        return {static_cast<std::int64_t>(std::floor(p.x / radius_)), static_cast<std::int64_t>(std::floor(p.y / radius_)),
+        return {static_cast<std::int64_t>(std::floor(p.x / radius_)),
+                static_cast<std::int64_t>(std::floor(p.y / radius_)),
                 static_cast<std::int64_t>(std::floor(p.z / radius_))};
     }
     static std::uint64_t key(const Index& i) {

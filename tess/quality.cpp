@@ -101,8 +101,8 @@ Circumsphere circumsphere(const CellPoints& p) {
     const Vec3 c = p[3] - p[0];
     const Vec3 bc = cross(b, c);
     const double denominator = 2 * dot(a, bc);
-    const Vec3 offset = (squared_length(a) * bc + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b)) /
-                        denominator;
+    const Vec3 offset =
+        (squared_length(a) * bc + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b)) / denominator;
     const double squared_radius = squared_length(offset);
     return {p[0] + offset, std::isfinite(squared_radius) ? squared_radius : std::numeric_limits<double>::infinity()};
 }

@@ -13,12 +13,12 @@ namespace terratet {
 struct CellQuality {
     double shortest_edge = 0;
     double longest_edge = 0;
-    double volume = 0;             ///< unsigned
-    double circumradius = 0;       ///< infinity for a cell without volume
+    double volume = 0;        ///< unsigned
+    double circumradius = 0;  ///< infinity for a cell without volume
     double inradius = 0;
-    double radius_edge = 0;        ///< R/ℓ; regular 0.612
-    double aspect = 0;             ///< β = R/r; regular 3; infinity without volume
-    double dihedral_min_deg = 0;   ///< regular 70.53
+    double radius_edge = 0;       ///< R/ℓ; regular 0.612
+    double aspect = 0;            ///< β = R/r; regular 3; infinity without volume
+    double dihedral_min_deg = 0;  ///< regular 70.53
     double dihedral_max_deg = 0;
 };
 
@@ -31,7 +31,7 @@ CellQuality cell_quality(const CellPoints& points);
 double sharpest_dihedral_cosine(const CellPoints& points);
 
 struct Circumsphere {
-    Vec3 center;             ///< not finite for a cell without volume
+    Vec3 center;  ///< not finite for a cell without volume
     double squared_radius = 0;
 };
 

@@ -8,9 +8,11 @@
 
 #include "tess/cell_queue.hpp"
 #include "tess/cells.hpp"
+#include "tess/clean_up.hpp"
 #include "tess/conflict_zone.hpp"
 #include "tess/delaunay.hpp"
 #include "tess/insertion_rule.hpp"
+#include "tess/live_cell.hpp"
 
 namespace terratet {
 
@@ -25,37 +27,6 @@ const double poor_star_cosine = std::cos(12 * std::numbers::pi / 180);
 constexpr int candidate_count = 7;
 constexpr double candidate_radius = 0.3;  ///< of the circumradius
 
-/// Deterministic points in a ball, seeded by a cell's vertices: the same whatever happened before (R6).
-class BallPoints {
-  public:
-    explicit BallPoints(const std::array<std::uint32_t, 4>& vertices) {
-        for (const std::uint32_t v : vertices) {
-            state_ = mix(state_ ^ v);
-        }
-    }
-    Vec3 next() {
-        for (;;) {
-            const Vec3 p{uniform(), uniform(), uniform()};
-            if (squared_length(p) <= 1) {
-                return p;
-            }
-        }
-    }
-
-  private:
-    static std::uint64_t mix(std::uint64_t x) {  // the finaliser of SplitMix64 (Steele, Lea, Flood 2014)
-        x += 0x9e3779b97f4a7c15U;
-        x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-        x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-        return x ^ (x >> 31U);
-    }
-    double uniform() {
-        state_ = mix(state_);
-        return static_cast<double>(state_ >> 11U) * 0x1p-52 - 1;
-    }
-    std::uint64_t state_ = 0;
-};
-
 class Refiner {
   public:
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
@@ -65,6 +36,7 @@ class Refiner {
           values_(values),
           rule_(criteria, domain, frame, faults, properties, values),
           search_(kernel_.triangulation, domain.hull),
+          criteria_(criteria),
           frame_(frame),
           source_(source),
           options_(options),
@@ -81,6 +53,9 @@ class Refiner {
         while (const auto cell = queue_.pop()) {
             treat(*cell);
         }
+        if (options_.clean_up) {
+            clean_up();
+        }
         if (!values_at_once_) {
             append_values(first_new_);
         }
@@ -88,22 +63,6 @@ class Refiner {
     }
 
   private:
-    /// Vertices ascending, points in step.
-    static JudgedCell judged(Cell cell) {
-        std::array<std::pair<std::uint32_t, int>, 4> order{};
-        for (int k = 0; k < 4; ++k) {
-            order[static_cast<std::size_t>(k)] = {cell->vertex(k)->info(), k};
-        }
-        std::ranges::sort(order);
-        JudgedCell result{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            result.vertices[k] = order[k].first;
-            result.points[k] = delaunay::from_cgal(cell->vertex(order[k].second)->point());
-        }
-        result.sphere = circumsphere(result.points);
-        return result;
-    }
-
     void queue_all() {
         auto& triangulation = kernel_.triangulation;
         if (triangulation.dimension() < 3) {
@@ -182,14 +141,16 @@ class Refiner {
         return true;
     }
 
-    /// Rule 4: where the circumcentre would make a poor star, the first of seven points around it that makes a fair one, or
-    /// the best of all eight.
+    /// Rule 4: where the circumcentre would make a poor star, the first of seven points around it that makes a fair
+    /// one, or the best of all eight.
     void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
         double best = sharpest_of_star(zone_, 1);
         if (best <= poor_star_cosine) {
             return;
         }
-        BallPoints ball(cell.vertices);
+        std::array<std::uint64_t, 4> ids{};
+        std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
+        BallPoints ball(ids);
         for (int i = 0; i < candidate_count && best > poor_star_cosine; ++i) {
             const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
             if (!rule_.allows(point) || !find_zone(point, start, candidate_)) {
@@ -237,9 +198,9 @@ class Refiner {
             outside_.emplace_back(cell->neighbor(k), cell->neighbor(k)->index(cell));
         }
         auto& triangulation = kernel_.triangulation;
-        const auto vertex = triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(),
-                                                         zone.cells.end(), zone.boundary.front().first,
-                                                         zone.boundary.front().second);
+        const auto vertex =
+            triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
+                                         zone.boundary.front().first, zone.boundary.front().second);
         vertex->info() = static_cast<std::uint32_t>(kernel_.vertices.size());
         kernel_.vertices.push_back({kernel_.next_id++, zone.point, Role::inserted, -1, 0});
         ++report_.inserted;
@@ -256,6 +217,62 @@ class Refiner {
         if (report_.inserted % 4096 == 0) {
             tell();
         }
+    }
+
+    void clean_up() {
+        const auto revalue = [this](std::uint32_t vertex, const Vec3& place) {
+            if (vertex < values_.extrapolation.size()) {  // the others get theirs at the end
+                set_values(vertex, place);
+            }
+        };
+        CleanUp cleaning(kernel_, rule_, search_, criteria_, frame_, revalue, options_.progress);
+        const CleanUpReport done = cleaning.run();
+        report_.moved = done.moved;
+        report_.removed = done.removed;
+        drop(cleaning.removed());
+    }
+
+    /// Takes removed vertices out of the tables; the others keep their ids and their order.
+    void drop(const std::vector<std::uint32_t>& removed) {
+        if (removed.empty()) {
+            return;
+        }
+        std::vector<std::uint32_t> new_index(kernel_.vertices.size(), 0);
+        for (const std::uint32_t vertex : removed) {
+            new_index[vertex] = delaunay::none;
+        }
+        const std::size_t with_values = values_.extrapolation.size();
+        const auto compact = [&](auto& column, std::size_t size) {
+            std::size_t kept = 0;
+            for (std::size_t i = 0; i < size; ++i) {
+                if (new_index[i] != delaunay::none) {
+                    column[kept++] = column[i];
+                }
+            }
+            column.resize(kept);
+        };
+        for (auto& column : values_.values) {
+            compact(column, with_values);
+        }
+        compact(values_.extrapolation, with_values);
+        compact(kernel_.vertices, kernel_.vertices.size());
+        std::uint32_t next = 0;
+        for (std::uint32_t& index : new_index) {
+            index = index == delaunay::none ? delaunay::none : next++;
+        }
+        for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
+            vertex->info() = new_index[vertex->info()];
+        }
+        first_new_ = std::min(first_new_, values_.extrapolation.size());
+    }
+
+    void set_values(std::uint32_t vertex, const Vec3& place) {
+        const ValueQuery query{place, -1, 0};
+        const ValueBatch batch = source_({&query, 1});
+        for (std::size_t p = 0; p < property_count_; ++p) {
+            values_.values[p][vertex] = batch.values[p][0];
+        }
+        values_.extrapolation[vertex] = batch.extrapolation[0];
     }
 
     void append_values(std::size_t first) {
@@ -288,6 +305,7 @@ class Refiner {
     VertexValues& values_;
     InsertionRule rule_;
     ConflictSearch search_;
+    const Criteria& criteria_;
     const Frame& frame_;
     const ValueSource& source_;
     const RefineOptions& options_;

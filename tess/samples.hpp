@@ -16,10 +16,10 @@ namespace terratet {
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 struct Samples {
-    std::vector<Vec3> positions;            ///< frame-local
-    std::vector<std::int32_t> borehole;     ///< index into Model::boreholes, or -1 for a loose sample
-    std::vector<double> depth;              ///< measured depth along the borehole, in the frame's unit; NaN when loose
-    std::vector<double> length;             ///< length of the log interval the value stands for; 0 for a point
+    std::vector<Vec3> positions;         ///< frame-local
+    std::vector<std::int32_t> borehole;  ///< index into Model::boreholes, or -1 for a loose sample
+    std::vector<double> depth;           ///< measured depth along the borehole, in the frame's unit; NaN when loose
+    std::vector<double> length;          ///< length of the log interval the value stands for; 0 for a point
     std::vector<std::vector<double>> values;  ///< [property][sample] in the measured unit; NaN: missing
 
     [[nodiscard]] std::size_t size() const { return positions.size(); }

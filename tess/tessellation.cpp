@@ -14,8 +14,9 @@ namespace {
 using delaunay::Cell;
 
 /// Even permutations of four that bring each position to the front and each of the rest to the second place.
-constexpr std::uint8_t rotations[12][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 0, 3, 2}, {1, 3, 2, 0}, {1, 2, 0, 3},
-                                           {2, 0, 1, 3}, {2, 1, 3, 0}, {2, 3, 0, 1}, {3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}};
+constexpr std::uint8_t rotations[12][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 0, 3, 2},
+                                           {1, 3, 2, 0}, {1, 2, 0, 3}, {2, 0, 1, 3}, {2, 1, 3, 0},
+                                           {2, 3, 0, 1}, {3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}};
 
 struct FlatCell {
     std::array<std::uint32_t, 4> vertices;
@@ -60,14 +61,18 @@ void Tessellation::insert(std::span<const Vertex> vertices) {
     assert(kernel.triangulation.number_of_vertices() == kernel.vertices.size());
 }
 
-std::span<const Vertex> Tessellation::vertices() const { return kernel_->vertices; }
+std::span<const Vertex> Tessellation::vertices() const {
+    return kernel_->vertices;
+}
 
 std::size_t Tessellation::cell_count() const {
     const auto& triangulation = kernel_->triangulation;
     return triangulation.dimension() == 3 ? triangulation.number_of_finite_cells() : 0;
 }
 
-std::uint64_t Tessellation::next_id() const { return kernel_->next_id; }
+std::uint64_t Tessellation::next_id() const {
+    return kernel_->next_id;
+}
 
 TetMesh Tessellation::mesh() const {
     auto& triangulation = kernel_->triangulation;
@@ -98,12 +103,15 @@ TetMesh Tessellation::mesh() const {
         mesh.cells.push_back(flat.vertices);
         auto& neighbours = mesh.neighbours.emplace_back();
         for (std::size_t k = 0; k < 4; ++k) {
-            neighbours[k] = static_cast<std::int32_t>(flat.cell->neighbor(flat.order[k])->info().tag);  // none becomes −1
+            neighbours[k] =
+                static_cast<std::int32_t>(flat.cell->neighbor(flat.order[k])->info().tag);  // none becomes −1
         }
     }
     return mesh;
 }
 
-bool Tessellation::is_delaunay() const { return kernel_->triangulation.is_valid(); }
+bool Tessellation::is_delaunay() const {
+    return kernel_->triangulation.is_valid();
+}
 
 }  // namespace terratet

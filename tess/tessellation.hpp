@@ -52,7 +52,8 @@ class Tessellation {
     Tessellation& operator=(Tessellation&&) noexcept;
 
     /// Adds vertices in bulk, in spatially sorted order; n log n in practice, ~250 k/s on one core.
-    /// \pre Ids ascend, all above those present; positions are finite and distinct from each other and from those present.
+    /// \pre Ids ascend, all above those present; positions are finite and distinct from each other and from those
+    /// present.
     void insert(std::span<const Vertex> vertices);
 
     /// In ascending id.

@@ -65,7 +65,8 @@ class Sweep {
 double distance_to(const Surface& surface, const Vec3& p) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Triangle& t : surface.triangles) {
-        const Vec3 q = closest_point_on_triangle(p, surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
+        const Vec3 q =
+            closest_point_on_triangle(p, surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
         nearest = std::min(nearest, squared_distance(p, q));
     }
     return std::sqrt(nearest);
@@ -73,14 +74,18 @@ double distance_to(const Surface& surface, const Vec3& p) {
 
 bool in_protection_zone(const Model& model, const Vec3& p) {
     return std::ranges::any_of(model.faults, [&](const Fault& fault) {
-        return std::min(distance_to(fault.sheet, p), distance_to(fault.margin, p)) < fault.protection_radius * (1 + 1e-9);
+        return std::min(distance_to(fault.sheet, p), distance_to(fault.margin, p)) <
+               fault.protection_radius * (1 + 1e-9);
     });
 }
 
 class Verifier {
   public:
     explicit Verifier(const Model& model)
-        : model_(model), tessellation_(tessellate(model)), mesh_(tessellation_.mesh()), table_(describe_cells(model, mesh_)) {
+        : model_(model),
+          tessellation_(tessellate(model)),
+          mesh_(tessellation_.mesh()),
+          table_(describe_cells(model, mesh_)) {
         for (const Vertex& vertex : model.vertices) {
             if (vertex.role == Role::sample) {
                 kept_.push_back(vertex.position);
@@ -93,7 +98,8 @@ class Verifier {
         const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::v1, &Verifier::f1, &Verifier::r1,    &Verifier::r2,
                             &Verifier::r3, &Verifier::r4, &Verifier::r5, &Verifier::r7, &Verifier::volume};
         for (const auto step : steps) {
-            report_progress(progress, "check", static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
+            report_progress(progress, "check",
+                            static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
             verdicts.push_back((this->*step)());
         }
         return verdicts;
@@ -221,9 +227,9 @@ class Verifier {
                 offenders.add("cell at " + show(model_, corners(c)[0]));
             }
         }
-        return offenders.verdict("R2", "each cell meets the criteria or carries a reason",
-                                 std::to_string(excused) + " of " + std::to_string(mesh_.cells.size()) +
-                                     " cells carry a reason");
+        return offenders.verdict(
+            "R2", "each cell meets the criteria or carries a reason",
+            std::to_string(excused) + " of " + std::to_string(mesh_.cells.size()) + " cells carry a reason");
     }
 
     /// A vertex' nearest neighbour is one of its Delaunay neighbours (R5), so edges tell all.
@@ -232,8 +238,8 @@ class Verifier {
         double shortest = std::numeric_limits<double>::infinity();
         for (const auto& cell : mesh_.cells) {
             for (const auto& [i, j] : cell_edges) {
-                const bool inserted = model_.vertices[cell[i]].role == Role::inserted ||
-                                      model_.vertices[cell[j]].role == Role::inserted;
+                const bool inserted =
+                    model_.vertices[cell[i]].role == Role::inserted || model_.vertices[cell[j]].role == Role::inserted;
                 const double d = inserted ? squared_distance(point(cell[i]), point(cell[j]))
                                           : std::numeric_limits<double>::infinity();
                 shortest = std::min(shortest, d);
@@ -285,13 +291,13 @@ class Verifier {
             return ValueBatch{std::vector(model_.properties.size(), std::vector<double>(queries.size(), missing)),
                               std::vector<double>(queries.size(), 0)};
         };
-        const RefineReport report = refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria,
-                                           model_.properties, none);
-        if (report.inserted > 0) {
-            offenders.add(std::to_string(report.inserted) + " vertices would be inserted, the first at " +
-                          show(model_, again.vertices()[model_.vertices.size()].position));
+        const RefineReport report =
+            refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria, model_.properties, none);
+        if (report.inserted + report.moved + report.removed > 0) {
+            offenders.add(std::to_string(report.inserted) + " vertices would be inserted, " +
+                          std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");
         }
-        return offenders.verdict("R7", "refining again changes nothing", "nothing inserted");
+        return offenders.verdict("R7", "refining again changes nothing", "nothing inserted, moved or removed");
     }
 
     Verdict volume() {
@@ -320,6 +326,8 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Verdict> verify(const Model& model, const Progress& progress) { return Verifier(model).run(progress); }
+std::vector<Verdict> verify(const Model& model, const Progress& progress) {
+    return Verifier(model).run(progress);
+}
 
 }  // namespace terratet

@@ -4,12 +4,12 @@
 /// \file
 /// What tests share: where data is, temporary folders, seeded random numbers.
 
+#include <unistd.h>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
-#include <unistd.h>
 
 #include "tess/geometry.hpp"
 
@@ -20,12 +20,12 @@ inline std::filesystem::path project_data(const std::string& relative) {
     return std::filesystem::path(TERRATET_SOURCE_DIR) / "data" / relative;
 }
 
-/// A file or folder of the public data sets, which are not part of the project: the folder TERRATET_PUBLIC_DATA names, or
-/// shared/data beside the checkout. Nothing when absent: the test then says so (WARN) and returns.
+/// A file or folder of the public data sets, which are not part of the project: the folder TERRATET_PUBLIC_DATA names,
+/// or shared/data beside the checkout. Nothing when absent: the test then says so (WARN) and returns.
 inline std::optional<std::filesystem::path> public_data(const std::string& relative) {
     const char* named = std::getenv("TERRATET_PUBLIC_DATA");
-    const auto root = named ? std::filesystem::path(named)
-                            : std::filesystem::path(TERRATET_SOURCE_DIR) / ".." / "shared" / "data";
+    const auto root =
+        named ? std::filesystem::path(named) : std::filesystem::path(TERRATET_SOURCE_DIR) / ".." / "shared" / "data";
     std::error_code error;
     const auto path = root / relative;
     return std::filesystem::exists(path, error) ? std::optional(path) : std::nullopt;

@@ -50,15 +50,14 @@ std::vector<Vec3> arrangement(bool large) {
         const double dip = 0.6 + 0.1 * plane;
         for (int i = 0; i < 15; ++i) {
             for (int j = 0; j < 31; ++j) {
-                samples.positions.push_back({(large ? 100 + 80 * plane : 160) + 20 * i * std::cos(dip) + random(0, 1e-3),
-                                             (large ? 150 + 60 * plane : 150) + 20.0 * j,
-                                             (large ? 100 + 120 * plane : 350) + 20 * i * std::sin(dip)});
+                samples.positions.push_back(
+                    {(large ? 100 + 80 * plane : 160) + 20 * i * std::cos(dip) + random(0, 1e-3),
+                     (large ? 150 + 60 * plane : 150) + 20.0 * j,
+                     (large ? 100 + 120 * plane : 350) + 20 * i * std::sin(dip)});
             }
         }
     }
-    std::erase_if(samples.positions, [](const Vec3& p) {
-        return !Box3{{8, 8, 8}, {732, 992, 992}}.contains(p);
-    });
+    std::erase_if(samples.positions, [](const Vec3& p) { return !Box3{{8, 8, 8}, {732, 992, 992}}.contains(p); });
     const std::vector<Fault> no_faults;
     const auto kept = edit_density(samples, 8, DensityMode::canonical, FaultProximity(no_faults)).kept;
     std::vector<Vec3> points;
@@ -94,7 +93,8 @@ Result measured(std::size_t points, std::size_t cells, double seconds, const Cor
     }
     std::ranges::sort(angles);
     const auto sharp = std::ranges::lower_bound(angles, 5.0) - angles.begin();
-    return {points, cells, seconds, angles[cells / 100], 100.0 * static_cast<double>(sharp) / static_cast<double>(cells)};
+    return {points, cells, seconds, angles[cells / 100],
+            100.0 * static_cast<double>(sharp) / static_cast<double>(cells)};
 }
 
 Result ours(const std::vector<Vec3>& points, double volume, double radius_edge) {
@@ -167,8 +167,8 @@ Result tetgen(const std::vector<Vec3>& points, double volume, double radius_edge
     std::string switches = "piQq" + std::to_string(radius_edge) + "a" + std::to_string(volume) + more;
     tetrahedralize(switches.data(), &in, &out, &additional);
     const double seconds = timer.seconds();
-    return measured(static_cast<std::size_t>(out.numberofpoints), static_cast<std::size_t>(out.numberoftetrahedra), seconds,
-                    [&](std::size_t c) {
+    return measured(static_cast<std::size_t>(out.numberofpoints), static_cast<std::size_t>(out.numberoftetrahedra),
+                    seconds, [&](std::size_t c) {
                         CellPoints corners;
                         for (std::size_t k = 0; k < 4; ++k) {
                             const double* p = out.pointlist + 3 * out.tetrahedronlist[4 * c + k];
@@ -189,8 +189,11 @@ double print(const std::string& tool, int runs, const std::function<Result()>& w
     std::ranges::sort(seconds);
     const double median = seconds[seconds.size() / 2];
     const double rate = static_cast<double>(result.cells) / median / 1e3;
-    std::printf("  %-28s %9zu points %9zu cells  %7.3f s  %6.0f k cells/s  %5.0f B/vertex  1 %% of cells below %4.1f deg, %.2f %% below 5\n", tool.c_str(), result.points,
-                result.cells, median, rate, static_cast<double>(peak) / static_cast<double>(result.points), result.dihedral_p1_deg, result.sharp_percent);
+    std::printf(
+        "  %-28s %9zu points %9zu cells  %7.3f s  %6.0f k cells/s  %5.0f B/vertex  1 %% of cells below %4.1f deg, %.2f "
+        "%% below 5\n",
+        tool.c_str(), result.points, result.cells, median, rate,
+        static_cast<double>(peak) / static_cast<double>(result.points), result.dihedral_p1_deg, result.sharp_percent);
     std::fflush(stdout);
     return rate;
 }
@@ -205,9 +208,11 @@ int main(int argc, char** argv) {
             std::printf("%s: %zu points, V <= %g, R/l <= 2, median of %d runs\n", large ? "200 holes" : "4 holes",
                         points.size(), volume, runs);
             const double own = print("terratet", runs, [&] { return ours(points, volume, 2); });
-            const double plain = print("TetGen, optimisation off", runs, [&] { return tetgen(points, volume, 2, "O0"); });
+            const double plain =
+                print("TetGen, optimisation off", runs, [&] { return tetgen(points, volume, 2, "O0"); });
             const double full = print("TetGen", runs, [&] { return tetgen(points, volume, 2, ""); });
-            std::printf("  cells per second: %.2f x TetGen without optimisation, %.2f x TetGen\n", own / plain, own / full);
+            std::printf("  cells per second: %.2f x TetGen without optimisation, %.2f x TetGen\n", own / plain,
+                        own / full);
         }
     }
 }

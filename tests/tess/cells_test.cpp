@@ -59,7 +59,8 @@ TEST_CASE("A fault through the whole extent makes two regions of the right size;
         if (table.region[c] >= 0 && std::abs(x - 150) > 15) {
             const bool west = x < 150;
             const bool first_is_west = mesh.points[mesh.cells[static_cast<std::size_t>(
-                                           std::ranges::find(table.region, 0) - table.region.begin())][0]].x < 150;
+                                                       std::ranges::find(table.region, 0) - table.region.begin())][0]]
+                                           .x < 150;
             REQUIRE((table.region[c] == 0) == (west == first_is_west));
         }
     }
@@ -78,11 +79,14 @@ TEST_CASE("Percentages count what their names say") {
     std::size_t skinny = 0;
     std::size_t flat = 0;
     for (const auto& v : mesh.cells) {
-        const CellQuality q = cell_quality({mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
+        const CellQuality q =
+            cell_quality({mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
         skinny += q.radius_edge > 2 ? 1 : 0;
         flat += q.radius_edge <= 2 && q.aspect > 8 ? 1 : 0;
     }
-    const auto percent = [&](std::size_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(mesh.cells.size()); };
+    const auto percent = [&](std::size_t n) {
+        return 100.0 * static_cast<double>(n) / static_cast<double>(mesh.cells.size());
+    };
     CHECK(built.report.final.tetrahedra == mesh.cells.size());
     CHECK(built.report.final.skinny_percent == Approx(percent(skinny)));
     CHECK(built.report.final.flat_percent == Approx(percent(flat)));
@@ -99,7 +103,8 @@ TEST_CASE("Refinement leaves few bad cells where the criteria can be met") {
     for (const auto& [reason, count] : built.report.refine.skipped) {
         bad += count;
     }
-    CHECK(static_cast<double>(bad) >= built.report.final.bad_percent / 100 * static_cast<double>(built.report.final.tetrahedra) - 1);
+    CHECK(static_cast<double>(bad) >=
+          built.report.final.bad_percent / 100 * static_cast<double>(built.report.final.tetrahedra) - 1);
 }
 
 TEST_CASE("A linear field is reproduced at every sample, dropped ones included") {
@@ -114,7 +119,8 @@ TEST_CASE("A linear field is reproduced at every sample, dropped ones included")
         world.site, world.options,
         [&](const Model&, const FaultProximity&) {
             return [&](std::span<const ValueQuery> queries) {
-                ValueBatch batch{{{}, std::vector<double>(queries.size(), missing)}, std::vector<double>(queries.size(), 0)};
+                ValueBatch batch{{{}, std::vector<double>(queries.size(), missing)},
+                                 std::vector<double>(queries.size(), 0)};
                 for (const ValueQuery& query : queries) {
                     batch.values[0].push_back(linear(query.position));
                 }
@@ -175,7 +181,8 @@ TEST_CASE("The grid on the hull box's faces is fine enough, never too fine, and 
         }
         CHECK(corners == 8);
         const auto free = face_grid(hull, l_min, l_max, {}, frame);
-        for (int i = 0; i < 200; ++i) {  // covering: a square grid of spacing l_max/√2 leaves half its diagonal, l_max/2
+        for (int i = 0; i < 200;
+             ++i) {  // covering: a square grid of spacing l_max/√2 leaves half its diagonal, l_max/2
             Vec3 p = random.in(hull);
             p.x = hull.lo.x;
             double nearest = 1e300;

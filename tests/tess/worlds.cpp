@@ -18,7 +18,9 @@ void add(Site& site, const Vec3& p, std::int32_t borehole, double depth, double 
     samples.values[1].push_back(std::pow(10.0, -10 + value));
 }
 
-double field(const Vec3& p) { return std::sin(p.x / 60) + p.y / 200 + (p.z > -100 ? 1 : 0); }
+double field(const Vec3& p) {
+    return std::sin(p.x / 60) + p.y / 200 + (p.z > -100 ? 1 : 0);
+}
 
 void add_wells(Site& site, Random& random, int wells) {
     Vec3 centre = random.in({{60, 60, 0}, {240, 240, 0}});
@@ -54,7 +56,8 @@ std::string degenerate(Site& site, Random& random, std::uint64_t kind) {
             return "collinear samples";
         case 3:
             for (int i = 0; i < 100; ++i) {
-                add(site, {30.0 * (i % 10), 30.0 * (i / 10), -100}, -1, missing, i);  // NOLINT(bugprone-integer-division)
+                add(site, {30.0 * (i % 10), 30.0 * (i / 10), -100}, -1, missing,
+                    i);  // NOLINT(bugprone-integer-division)
             }
             return "coplanar grid";
         case 4:
@@ -155,7 +158,8 @@ ValueSourceFactory analytic_field() {
             ValueBatch batch{std::vector<std::vector<double>>(properties), std::vector<double>(queries.size(), 0)};
             for (const ValueQuery& query : queries) {
                 for (std::size_t p = 0; p < properties; ++p) {
-                    batch.values[p].push_back(p == 0 ? field(query.position) : std::pow(10.0, -10 + field(query.position)));
+                    batch.values[p].push_back(p == 0 ? field(query.position)
+                                                     : std::pow(10.0, -10 + field(query.position)));
                 }
             }
             return batch;

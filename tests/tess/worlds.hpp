@@ -17,7 +17,8 @@ struct World {
     std::string description;
 };
 
-/// A world of a few hundred vertices in a box of 300 × 300 × 200 with a UTM-sized origin. Equal seeds give equal worlds.
+/// A world of a few hundred vertices in a box of 300 × 300 × 200 with a UTM-sized origin. Equal seeds give equal
+/// worlds.
 World random_world(std::uint64_t seed);
 
 /// A planar rectangle as a fault, `dip_deg` from horizontal, triangulated at `spacing`.

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Rule 6 of refinement (DESIGN §4.3): what insertion cannot mend, slivers and cells below v_min, is mended by moving
+/// or removing inserted vertices. Samples, seeds and the box's vertices stay. Private to this floor.
+///
+/// A change is accepted only if the guards of insertion hold, every new cell meets the insertion criteria, and the
+/// sorted list of severities of what it touches falls. Severities are whole numbers, so by the multiset ordering of
+/// Dershowitz and Manna (1979) the sweeps end. Candidates depend on ids and places alone: the last sweep, which accepts
+/// nothing, is the proof that cleaning up again would do nothing either (R7).
+
+#include <functional>
+
+#include "tess/conflict_zone.hpp"
+#include "tess/insertion_rule.hpp"
+
+namespace terratet {
+
+struct CleanUpReport {
+    std::uint64_t moved = 0;  ///< accepted moves; a vertex may move more than once
+    std::uint64_t removed = 0;
+};
+
+class CleanUp {
+  public:
+    /// `revalue` gives a vertex (by index) the values of a new place.
+    using Revalue = std::function<void(std::uint32_t vertex, const Vec3& place)>;
+
+    CleanUp(Tessellation::Kernel& kernel, const InsertionRule& rule, const ConflictSearch& search,
+            const Criteria& criteria, const Frame& frame, Revalue revalue, const Progress& progress);
+
+    /// Removed vertices are gone from the triangulation but still in the kernel's table: removed() tells which.
+    CleanUpReport run();
+
+    [[nodiscard]] const std::vector<std::uint32_t>& removed() const { return removed_; }
+
+  private:
+    using Severities = std::vector<int>;  ///< falling
+
+    struct Patient {
+        int severity;
+        std::array<std::uint32_t, 4> vertices;
+    };
+
+    std::vector<Patient> patients() const;
+    [[nodiscard]] int severity(const JudgedCell& cell) const;
+    bool treat(const Patient& patient);
+    bool mend(std::uint32_t vertex, const Patient& patient);
+    bool try_place(std::uint32_t vertex, const Vec3& place, const Severities& star_before);
+    void put(std::uint32_t vertex, const Vec3& place);
+
+    Tessellation::Kernel& kernel_;
+    const InsertionRule& rule_;
+    const ConflictSearch& search_;
+    const Criteria& criteria_;
+    const Frame& frame_;
+    Revalue revalue_;
+    const Progress& progress_;
+    std::vector<delaunay::VertexHandle> handles_;
+    std::vector<std::uint32_t> removed_;
+    CleanUpReport report_;
+    std::vector<delaunay::Cell> hole_;  ///< the cells that fill a removed vertex' star
+    Zone zone_;
+};
+
+}  // namespace terratet

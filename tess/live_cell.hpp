@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Cells of a live tessellation as the insertion rule sees them, and deterministic points around them. Private to this
+/// floor.
+
+#include <algorithm>
+
+#include "tess/delaunay.hpp"
+#include "tess/insertion_rule.hpp"
+
+namespace terratet {
+
+/// From vertices in any order: sorted by index, which is the order of ids.
+inline JudgedCell judged(std::array<std::pair<std::uint32_t, Vec3>, 4> corners) {
+    std::ranges::sort(corners, {}, &std::pair<std::uint32_t, Vec3>::first);
+    JudgedCell result{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        result.vertices[k] = corners[k].first;
+        result.points[k] = corners[k].second;
+    }
+    result.sphere = circumsphere(result.points);
+    return result;
+}
+
+inline JudgedCell judged(delaunay::Cell cell) {
+    std::array<std::pair<std::uint32_t, Vec3>, 4> corners;
+    for (int k = 0; k < 4; ++k) {
+        const auto vertex = cell->vertex(k);
+        corners[static_cast<std::size_t>(k)] = {vertex->info(), delaunay::from_cgal(vertex->point())};
+    }
+    return judged(corners);
+}
+
+/// Points uniform in the unit ball, seeded by ids: the same whatever happened before (R6), also after a reload (R7).
+class BallPoints {
+  public:
+    explicit BallPoints(std::span<const std::uint64_t> ids) {
+        for (const std::uint64_t id : ids) {
+            state_ = mix(state_ ^ id);
+        }
+    }
+    Vec3 next() {
+        for (;;) {
+            const Vec3 p{uniform(), uniform(), uniform()};
+            if (squared_length(p) <= 1) {
+                return p;
+            }
+        }
+    }
+
+  private:
+    static std::uint64_t mix(std::uint64_t x) {  // the finaliser of SplitMix64 (Steele, Lea, Flood 2014)
+        x += 0x9e3779b97f4a7c15U;
+        x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+        x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+        return x ^ (x >> 31U);
+    }
+    double uniform() {
+        state_ = mix(state_);
+        return static_cast<double>(state_ >> 11U) * 0x1p-52 - 1;
+    }
+    std::uint64_t state_ = 0;
+};
+
+}  // namespace terratet

@@ -24,6 +24,7 @@ constexpr double bend_factor = 1.1;     ///< on the protection radius of bent su
 constexpr double margin_factor = 1.15;  ///< width of the margin in protection radii
 constexpr double trim_limit = 0.6;      ///< share of a fault that may be trimmed beside others
 constexpr double max_deviation = 0.5;   ///< of a remeshed and rounded fault from the one read, in spacings
+constexpr double tangle_limit = 5;      ///< area over that of the extent's faces: no surface is folded so often
 constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
 
 std::string text(double value) {
@@ -74,6 +75,11 @@ void validate(const FaultOptions& options, double l_min) {
     }
 }
 
+double area_of_faces(const Box3& box) {
+    const Vec3 size = box.size();
+    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
 /// A surface on its way.
 struct Candidate {
     const Surface* surface = nullptr;
@@ -91,6 +97,7 @@ struct Attempt {
     double trimmed_share = 0;
     std::string trimmed_by;
     double deviation = 0;
+    double steepest = 0;  ///< bend before rounding (Rounding)
 };
 
 Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
@@ -154,7 +161,9 @@ Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3&
         if (!suits(carrier, scale.spacing)) {
             meshed = remeshed(carrier, scale.spacing);
         }
-        result.finer_may_help = !round_bends(meshed, scale.spacing) || result.finer_may_help;
+        const Rounding rounding = round_bends(meshed, scale.spacing);
+        result.steepest = std::max(result.steepest, rounding.steepest);
+        result.finer_may_help = result.finer_may_help || !rounding.resolved;
         result.deviation = std::max(result.deviation, deviation(carrier, meshed, extent, scale.spacing));
         for (Vec3& p : meshed.points) {
             p = frame.snapped(p);
@@ -216,23 +225,22 @@ Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3&
     return result;
 }
 
-/// Halves the spacing while that helps. A bend smooth at a finer scale deviates less there, in spacings; a crease does
-/// not, and is given up after two tries instead of four, the last of which would cost 64 times the first.
+/// Halves the spacing while that helps. A smooth bend is half as steep at half the spacing; a crease stays as steep,
+/// and is given up after two tries instead of four, the last of which would cost 64 times the first.
 Attempt prepare_one(const Candidate& candidate, const FaultOptions& options, double l_min, const Box3& extent,
                     const Frame& frame, const std::vector<Fault>& accepted, std::size_t seed_budget) {
     Attempt last;
-    double last_roughness = std::numeric_limits<double>::infinity();
+    double last_steepest = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= halvings; ++k) {
         const FaultScale scale(options, requested_spacing(options, l_min), std::ldexp(1.0, -k));
         Attempt tried = attempt(candidate, scale, extent, frame, accepted, seed_budget);
         if (k > 0 && tried.seeds_needed > 0) {
             return last;  // what was wrong with the coarser one is the reason
         }
-        const double roughness = tried.deviation / scale.spacing;
-        if (tried.refusal.empty() || !tried.finer_may_help || roughness > 0.9 * last_roughness) {
+        if (tried.refusal.empty() || !tried.finer_may_help || tried.steepest > 0.8 * last_steepest) {
             return tried;
         }
-        last_roughness = roughness;
+        last_steepest = tried.steepest;
         last = std::move(tried);
     }
     return last;
@@ -325,6 +333,13 @@ FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3
         if (candidate.area_inside <= 1e-12 * candidate.account.area_in) {
             candidate.account.area_outside = candidate.account.area_in;
             candidate.account.reason = "lies wholly outside the extent";
+            continue;
+        }
+        if (candidate.area_inside > tangle_limit * area_of_faces(extent)) {
+            candidate.account.area_refused = candidate.area_inside;
+            candidate.account.reason = "is no surface but a tangle of triangles: within the extent its area is " +
+                                       text(candidate.area_inside / area_of_faces(extent)) +
+                                       " times that of the extent's faces; check the order of its corners";
             continue;
         }
         Attempt outcome;

@@ -170,7 +170,7 @@ double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, doub
     return std::max(farthest(a, b, where, limit), farthest(b, a, where, limit));
 }
 
-bool round_bends(FaultMesh& mesh, double spacing) {
+Rounding round_bends(FaultMesh& mesh, double spacing) {
     const std::vector<std::vector<std::uint32_t>> all = neighbours(mesh);
     std::vector<std::vector<std::uint32_t>> to_follow = all;  // a rim follows itself, or it would curl
     for (const RimEdge& e : rim_edges(mesh)) {
@@ -181,22 +181,27 @@ bool round_bends(FaultMesh& mesh, double spacing) {
         to_follow[e.from].push_back(e.to);
         to_follow[e.to].push_back(e.from);
     }
+    Rounding result;
     for (int round = 0; round < 40; ++round) {
         const std::vector<Vec3> normals = vertex_normals(mesh);
         std::vector<char> moving(mesh.points.size(), 0);
-        bool resolved = true;
+        result.resolved = true;
         for (std::size_t v = 0; v < all.size(); ++v) {
             for (const std::uint32_t w : all[v]) {
                 const Vec3 step = mesh.points[w] - mesh.points[v];
                 const double across = std::max(length(step), 0.5 * spacing);
-                if (std::abs(dot(step, normals[v])) > 0.1 * across * across / spacing) {
-                    resolved = false;
+                const double off = std::abs(dot(step, normals[v]));
+                if (off > 0.1 * across * across / spacing) {
+                    result.resolved = false;
                     moving[v] = 1;
+                }
+                if (round == 0) {
+                    result.steepest = std::max(result.steepest, off / across);
                 }
             }
         }
-        if (resolved) {
-            return true;
+        if (result.resolved) {
+            return result;
         }
         widen(moving, all);
         widen(moving, all);
@@ -212,7 +217,7 @@ bool round_bends(FaultMesh& mesh, double spacing) {
         }
         mesh.points = std::move(moved);
     }
-    return false;
+    return result;
 }
 
 }  // namespace terratet

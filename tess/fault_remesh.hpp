@@ -21,8 +21,14 @@ FaultMesh remeshed(const FaultMesh& mesh, double spacing);
 /// above `limit` count as `limit`.
 double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, double limit);
 
+struct Rounding {
+    bool resolved = true;  ///< no bend is left that is sharper than five spacings
+    double steepest = 0;   ///< before: slope of the steepest edge against the tangent plane at its end. Halves with the
+                           ///< spacing where the surface is smooth, stays the same at a crease
+};
+
 /// Rounds bends sharper than a radius of five spacings, which seeds at that spacing could not follow: points there move
-/// along their normals towards their neighbours until every bend is resolved. False when some is not after 40 rounds.
-bool round_bends(FaultMesh& mesh, double spacing);
+/// along their normals towards their neighbours until every bend is resolved, or for 40 rounds.
+Rounding round_bends(FaultMesh& mesh, double spacing);
 
 }  // namespace terratet

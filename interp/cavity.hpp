@@ -38,6 +38,10 @@ class Cavity {
 
   private:
     void grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start);
+    void add_first(const CompactDelaunay& mesh, const Vec3& q, std::int32_t id);
+    /// \param from  local number of the cell through which it was found: three of the four vertices are known
+    void add_next(const CompactDelaunay& mesh, const Vec3& q, std::int32_t id, std::int32_t from);
+    std::int32_t add_vertex(const CompactDelaunay& mesh, const Vec3& q, std::int32_t vertex);
 
     IdMap cell_index_;
     IdMap vertex_index_;

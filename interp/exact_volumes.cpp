@@ -47,10 +47,10 @@ void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3&
     for (const auto& cell : cavity.cells) {
         const auto p = [&](std::size_t k) { return points[static_cast<std::size_t>(cell.vertex[k])]; };
         const ExactVector a = p(1) - p(0), b = p(2) - p(0), c = p(3) - p(0);
-        centers.push_back(p(0) + circumcenter_with_origin(a, b, c, dot(a, a), dot(b, b), dot(c, c)));
+        centers.push_back(p(0) + BoundaryFacet<ExactVector, Number>(a, b, c, dot(a, a), dot(b, b), dot(c, c)).center);
     }
-    std::vector<Number> squared;
-    std::vector<Number> volumes;
+    std::vector<Number> squared(points.size());
+    std::vector<Number> volumes(points.size());
     stolen_volumes<ExactVector, Number>(cavity.cells, points, centers, squared, volumes);
 
     const Number total = std::accumulate(volumes.begin(), volumes.end(), Number(0));

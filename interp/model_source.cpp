@@ -7,11 +7,13 @@
 #include <map>
 #include <utility>
 
+#include "interp/query_order.hpp"
+
 namespace terratet {
 namespace {
 
 /// Weights of so many queries are held at a time.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t block_size = 4096;
 
 /// A property's values at the sites of its group.
 struct Column {
@@ -101,40 +103,63 @@ class Source {
         ValueBatch batch;
         batch.values.assign(model_.properties.size(), std::vector<double>(queries.size(), missing));
         batch.extrapolation.assign(queries.size(), 1.0);
-        std::vector<Weights> weights(std::min(block_size, queries.size()));
-        for (std::size_t begin = 0; begin < queries.size(); begin += block_size) {
-            const auto block = queries.subspan(begin, std::min(block_size, queries.size() - begin));
-            estimate_block(block, begin, std::span(weights).first(block.size()), batch);
+        if (queries.size() <= block_size) {
+            estimate_block(queries, {}, batch);
+        } else {
+            estimate_in_blocks(queries, batch);
+        }
+        if (counters_) {
+            counters_->queries += queries.size();
         }
         return batch;
     }
 
   private:
-    void estimate_block(std::span<const ValueQuery> queries, std::size_t begin, std::span<Weights> weights,
+    /// Blocks of places near each other, or each would walk over all of the memory.
+    void estimate_in_blocks(std::span<const ValueQuery> queries, ValueBatch& batch) const {
+        const auto order = spatial_order(queries);
+        std::vector<ValueQuery> block;
+        for (std::size_t begin = 0; begin < order.size(); begin += block_size) {
+            const auto part = std::span(order).subspan(begin, std::min(block_size, order.size() - begin));
+            block.clear();
+            for (const std::uint32_t i : part) {
+                block.push_back(queries[i]);
+            }
+            estimate_block(block, part, batch);
+        }
+    }
+
+    /// \param place  where each query's results go in the batch; empty: where the query is
+    void estimate_block(std::span<const ValueQuery> queries, std::span<const std::uint32_t> place,
                         ValueBatch& batch) const {
-        std::vector<double> extrapolation(queries.size(), -1);
-        std::vector<bool> fallback(queries.size(), false);
+        std::vector<Weights> weights(queries.size());
+        std::vector<double> extrapolation(queries.size(), no_value);
+        std::vector<std::uint8_t> fallback(queries.size(), 0);
         for (const auto& group : groups_) {
             group.estimator->weights(queries, weights);
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 if (!weights[i].terms.empty()) {
                     extrapolation[i] = std::max(extrapolation[i], weights[i].extrapolation);
                 }
-                fallback[i] = fallback[i] || weights[i].fallback;
+                fallback[i] |= static_cast<std::uint8_t>(weights[i].fallback);
                 for (const auto& column : group.columns) {
-                    batch.values[column.property][begin + i] =
+                    batch.values[column.property][place.empty() ? i : place[i]] =
                         estimate(model_.properties[column.property], weights[i].terms, column);
                 }
             }
         }
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            batch.extrapolation[begin + i] = extrapolation[i] < 0 ? 1.0 : extrapolation[i];
+            if (extrapolation[i] != no_value) {
+                batch.extrapolation[place.empty() ? i : place[i]] = extrapolation[i];
+            }
         }
         if (counters_) {
-            counters_->queries += queries.size();
-            counters_->fallbacks += static_cast<std::uint64_t>(std::count(fallback.begin(), fallback.end(), true));
+            counters_->fallbacks +=
+                static_cast<std::uint64_t>(std::count(fallback.begin(), fallback.end(), std::uint8_t(1)));
         }
     }
+
+    static constexpr double no_value = -1;
 
     const Model& model_;
     std::vector<Group> groups_;

@@ -48,6 +48,8 @@ bool acceptable(const Workspace& work, double radius) {
 }
 
 bool shares_in_doubles(Workspace& work, double radius) {
+    work.squared.resize(work.cavity.points.size());
+    work.shares.resize(work.cavity.points.size());
     stolen_volumes<Vec3, double>(work.cavity.cells, work.cavity.points, work.cavity.centers, work.squared, work.shares);
     const double total = std::accumulate(work.shares.begin(), work.shares.end(), 0.0);
     for (double& share : work.shares) {

@@ -9,7 +9,6 @@
 #include <array>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "interp/morton.hpp"
 
@@ -21,14 +20,7 @@ constexpr std::size_t run_length = 128;
 
 }  // namespace
 
-void in_spatial_order(std::span<const ValueQuery> queries,
-                      const std::function<void(std::span<const std::uint32_t>)>& work) {
-    if (queries.size() < small_batch) {
-        std::array<std::uint32_t, small_batch> as_given;
-        std::iota(as_given.begin(), as_given.end(), 0u);
-        work(std::span(as_given).first(queries.size()));
-        return;
-    }
+std::vector<std::uint32_t> spatial_order(std::span<const ValueQuery> queries) {
     Box3 box;
     for (const auto& query : queries) {
         box.extend(query.position);
@@ -43,6 +35,18 @@ void in_spatial_order(std::span<const ValueQuery> queries,
     for (std::size_t i = 0; i < keys.size(); ++i) {
         order[i] = keys[i].second;
     }
+    return order;
+}
+
+void in_spatial_order(std::span<const ValueQuery> queries,
+                      const std::function<void(std::span<const std::uint32_t>)>& work) {
+    if (queries.size() < small_batch) {
+        std::array<std::uint32_t, small_batch> as_given;
+        std::iota(as_given.begin(), as_given.end(), 0u);
+        work(std::span(as_given).first(queries.size()));
+        return;
+    }
+    const auto order = spatial_order(queries);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), run_length),
                       [&](const auto& range) { work(std::span(order).subspan(range.begin(), range.size())); });
 }

@@ -7,10 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "tess/value_source.hpp"
 
 namespace terratet {
+
+/// Indices into `queries` in Morton order.
+std::vector<std::uint32_t> spatial_order(std::span<const ValueQuery> queries);
 
 /// Calls `work` with indices into `queries`, each index in exactly one call; calls run at the same time on TBB's
 /// threads. A batch of fewer than 64 is one call on this thread: the refiner asks for one place at a time.

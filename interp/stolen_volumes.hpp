@@ -12,17 +12,31 @@
 
 namespace terratet {
 
-/// Circumcentre of the origin, a, b and c, given their squared lengths.
+/// A facet abc of the cavity's boundary, with the query at the origin.
 template <typename Vector, typename Number>
-Vector circumcenter_with_origin(const Vector& a, const Vector& b, const Vector& c, const Number& aa, const Number& bb,
-                                const Number& cc) {
-    const Vector bc = cross(b, c);
-    const Number s = Number(0.5) / dot(a, bc);
-    return s * (aa * bc + bb * cross(c, a) + cc * cross(a, b));
-}
+struct BoundaryFacet {
+    Vector center;  ///< of the sphere through the query, a, b and c
+    Number a;       ///< what closing the faces of its three edges adds to the volumes of a, b and c
+    Number b;
+    Number c;
 
-/// Fills volumes[v], in a common unit, for each vertex of the cavity. \param centers of its cells; both relative to the
-/// query.
+    BoundaryFacet(const Vector& pa, const Vector& pb, const Vector& pc, const Number& aa, const Number& bb,
+                  const Number& cc) {
+        const Vector na = cross(pb, pc), nb = cross(pc, pa), nc = cross(pa, pb);
+        const Number half_inverse = Number(0.5) / dot(pa, na);
+        center = half_inverse * (aa * na + bb * nb + cc * nc);
+        const Number ab = dot(pa, pb), bc = dot(pb, pc), ca = dot(pc, pa);
+        const Number ka = dot(center, na) / dot(na, na);
+        const Number kb = dot(center, nb) / dot(nb, nb);
+        const Number kc = dot(center, nc) / dot(nc, nc);
+        a = Number(0.5) * (kc * bb * (aa - ab) + kb * cc * (aa - ca));
+        b = Number(0.5) * (ka * cc * (bb - bc) + kc * aa * (bb - ab));
+        c = Number(0.5) * (kb * aa * (cc - ca) + ka * bb * (cc - bc));
+    }
+};
+
+/// Fills volumes[v], in a common unit, and squared[v], the squared length of points[v], for each vertex of the cavity.
+/// \param points, centers  of the cavity's vertices and cells, relative to the query
 ///
 /// What a site a loses is a polyhedron: one face on the bisector of a and the query, and one on the bisector of a and b
 /// for each edge ab of the cavity, with the circumcentres of the cells round that edge as corners. As each face's plane
@@ -34,20 +48,11 @@ Vector circumcenter_with_origin(const Vector& a, const Vector& b, const Vector& 
 /// No pairs of neighbouring facets are needed, and the only divisions are by facets that the query is off the plane of.
 template <typename Vector, typename Number>
 void stolen_volumes(std::span<const Cavity::Cell> cells, std::span<const Vector> points,
-                    std::span<const Vector> centers, std::vector<Number>& squared, std::vector<Number>& volumes) {
-    squared.resize(points.size());
+                    std::span<const Vector> centers, std::span<Number> squared, std::span<Number> volumes) {
     for (std::size_t v = 0; v < points.size(); ++v) {
         squared[v] = dot(points[v], points[v]);
+        volumes[v] = Number(0);
     }
-    volumes.assign(points.size(), Number(0));
-
-    const auto close_face = [&](std::size_t a, std::size_t b, const Vector& g) {
-        const Vector normal = cross(points[a], points[b]);
-        const Number ab = dot(points[a], points[b]);
-        const Number k = dot(g, normal) / (Number(2) * dot(normal, normal));
-        volumes[a] += k * squared[b] * (squared[a] - ab);
-        volumes[b] += k * squared[a] * (squared[b] - ab);
-    };
 
     for (std::size_t i = 0; i < cells.size(); ++i) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -58,21 +63,19 @@ void stolen_volumes(std::span<const Cavity::Cell> cells, std::span<const Vector>
             const auto a = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][0]]);
             const auto b = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][1]]);
             const auto c = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][2]]);
-            Vector x;
+            const Vector pa = points[a], pb = points[b], pc = points[c];
+            const auto add = [&](const Vector& x, const Number& to_a, const Number& to_b, const Number& to_c) {
+                const Number xa = dot(x, pa), xb = dot(x, pb), xc = dot(x, pc);
+                volumes[a] += to_a + (xb - xc);
+                volumes[b] += to_b + (xc - xa);
+                volumes[c] += to_c + (xa - xb);
+            };
             if (other >= 0) {
-                x = cross(centers[i], centers[static_cast<std::size_t>(other)]);
+                add(cross(centers[i], centers[static_cast<std::size_t>(other)]), Number(0), Number(0), Number(0));
             } else {
-                const Vector g =
-                    circumcenter_with_origin(points[a], points[b], points[c], squared[a], squared[b], squared[c]);
-                close_face(a, b, g);
-                close_face(b, c, g);
-                close_face(c, a, g);
-                x = cross(centers[i], g);
+                const BoundaryFacet<Vector, Number> facet(pa, pb, pc, squared[a], squared[b], squared[c]);
+                add(cross(centers[i], facet.center), facet.a, facet.b, facet.c);
             }
-            const Number xa = dot(x, points[a]), xb = dot(x, points[b]), xc = dot(x, points[c]);
-            volumes[a] += xb - xc;
-            volumes[b] += xc - xa;
-            volumes[c] += xa - xb;
         }
     }
 }

@@ -78,11 +78,14 @@ Json refine_json(const RefineReport& report) {
     for (const auto& [reason, cells] : report.skipped) {
         skipped[to_string(reason)] = cells;
     }
-    // Refinement only inserts: vertices are neither moved nor removed.
-    return {{"inserted", report.inserted}, {"moved", 0}, {"removed", 0}, {"bound", report.bound}, {"skipped", skipped}};
+    return {{"inserted", report.inserted},
+            {"moved", report.moved},
+            {"removed", report.removed},
+            {"bound", report.bound},
+            {"skipped", skipped}};
 }
 
-/// Cells that break a clean-up criterion, which insertion cannot repair: counted so that they are known.
+/// Cells that break a clean-up criterion still: counted so that they are known.
 Json clean_up_json(const Model& model, const Meshed& meshed) {
     std::size_t below_dihedral = 0;
     std::size_t below_v_min = 0;

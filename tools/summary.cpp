@@ -64,8 +64,9 @@ std::string build_lines(const BuildRecord& build, const Model& model) {
     for (const auto& [reason, cells] : report.refine.skipped) {
         left += fmt::format("{}{} {}", left.empty() ? "; left as they are: " : ", ", grouped(cells), to_string(reason));
     }
-    out += line("Refined", fmt::format("{} vertices inserted (at most {:.3g} can be){}",
-                                       grouped(report.refine.inserted), report.refine.bound, left));
+    out += line("Refined", fmt::format("{} vertices inserted (at most {:.3g} can be), {} moved, {} removed{}",
+                                       grouped(report.refine.inserted), report.refine.bound,
+                                       grouped(report.refine.moved), grouped(report.refine.removed), left));
     const CellStatistics& cells = report.final;
     out +=
         line("Final", fmt::format("{} vertices, {} tetrahedra; {:.1f} % skinny, {:.1f} % flat, {:.1f} % bad; dihedral "

@@ -39,12 +39,12 @@ TEST_CASE("A VDB file's identity follows from its content: equal files have equa
     write_vdb({grid.model, grid.mesh, grid.cells}, folder / "c.vdb", options);
     const std::string a = bytes_of(folder / "a.vdb");
     const std::string c = bytes_of(folder / "c.vdb");
-    CHECK(a == bytes_of(folder / "b.vdb"));
+    CHECK((a == bytes_of(folder / "b.vdb")));
     const std::string uuid = a.substr(uuid_begin, uuid_length);
     CHECK(uuid[14] == '8');  // version: the maker's own
     CHECK(uuid != c.substr(uuid_begin, uuid_length));
     make_vdb_identity_reproducible(folder / "a.vdb");
-    CHECK(bytes_of(folder / "a.vdb") == a);
+    CHECK((bytes_of(folder / "a.vdb") == a));
 }
 
 TEST_CASE("What does not begin as a VDB file is left alone") {

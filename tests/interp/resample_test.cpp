@@ -72,6 +72,28 @@ TetMesh jittered(int boxes, double share, std::uint64_t seed, double flatten = 1
     });
 }
 
+/// The Delaunay tessellation of a grid's nodes, those inside moved a little. Nearly cospherical points make cells as
+/// thin as they are far from it.
+TetMesh delaunay_grid(double jitter) {
+    Random random(17);
+    std::vector<Vertex> vertices;
+    for (int i = 0; i <= 8; ++i) {
+        for (int j = 0; j <= 8; ++j) {
+            for (int k = 0; k <= 8; ++k) {
+                Vec3 p;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const int n = axis == 0 ? i : axis == 1 ? j : k;
+                    p[axis] = n / 8.0 + (n == 0 || n == 8 ? 0 : random(-jitter, jitter));
+                }
+                vertices.push_back({vertices.size(), p, Role::inserted, -1, 0});
+            }
+        }
+    }
+    Tessellation tessellation;
+    tessellation.insert(vertices);
+    return tessellation.mesh();
+}
+
 std::vector<double> values_at(const TetMesh& mesh, const std::function<double(const Vec3&)>& f) {
     std::vector<double> values;
     for (const Vec3& p : mesh.points) {
@@ -165,25 +187,8 @@ TEST_CASE("Every voxel centre inside the union of cells gets a value, whatever t
 
 TEST_CASE(
     "Slivers leave no hole and no stray value: a linear field comes back linear from Delaunay cells of any shape") {
-    // Nearly cospherical points make cells as thin as they are far from it.
     const double jitter = GENERATE(0.0, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-2);
-    Random random(17);
-    std::vector<Vertex> vertices;
-    for (int i = 0; i <= 8; ++i) {
-        for (int j = 0; j <= 8; ++j) {
-            for (int k = 0; k <= 8; ++k) {
-                Vec3 p;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const int n = axis == 0 ? i : axis == 1 ? j : k;
-                    p[axis] = n / 8.0 + (n == 0 || n == 8 ? 0 : random(-jitter, jitter));
-                }
-                vertices.push_back({vertices.size(), p, Role::inserted, -1, 0});
-            }
-        }
-    }
-    Tessellation tessellation;
-    tessellation.insert(vertices);
-    const TetMesh mesh = tessellation.mesh();
+    const TetMesh mesh = delaunay_grid(jitter);
     const auto linear = [](const Vec3& p) { return 1 + 2 * p.x - 3 * p.y + 5 * p.z; };
     const auto f = values_at(mesh, linear);
     for (const std::int64_t size : {64, 83}) {
@@ -300,14 +305,14 @@ TEST_CASE("A voxel's value is its cell's linear function") {
 }
 
 TEST_CASE("Values never leave the range of the vertices', and a constant stays itself") {
-    for (const double flatten : {1.0, 1e-4, 1e-9}) {
-        const TetMesh mesh = jittered(8, 0.2, 8, flatten);
+    for (const double jitter : {1e-13, 1e-11, 1e-9, 1e-7, 1e-3}) {
+        const TetMesh mesh = delaunay_grid(jitter);
         Random random(9);
         std::vector<double> f(mesh.points.size());
         for (double& value : f) {
             value = random(2, 3);
         }
-        const Lattice lattice = node_lattice({{0, 0, 0}, {1, 1, flatten}}, 65);
+        const Lattice lattice = node_lattice(unit, 64);
         for (const float value : resample_dense({&mesh, f}, lattice)) {
             REQUIRE(value >= 2.0F);
             REQUIRE(value <= 3.0F);

@@ -98,6 +98,7 @@ struct Attempt {
     std::string trimmed_by;
     double deviation = 0;
     double steepest = 0;  ///< bend before rounding (Rounding)
+    bool rims_left = false;
 };
 
 Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
@@ -139,6 +140,41 @@ bool place_seeds(const std::vector<BasePoint>& base, double width, const Frame& 
     return places.size() == seeds.size();
 }
 
+/// A connected part, out to the limit, in triangles of the spacing's size.
+struct Remeshed {
+    FaultMesh mesh;
+    double deviation = 0;
+    double steepest = 0;  ///< Rounding
+    bool too_rough = false;
+    bool rims_left = false;  ///< not extended to the extent's faces
+    double seeds_expected = 0;
+};
+
+/// Extended across the extent's faces if that makes no bends the part does not have: a rim that wavers may not be
+/// continued beyond its face, or not as far as to it; then it ends where it ended.
+Remeshed remeshed_part(const FaultMesh& part, const FaultScale& scale, const Box3& extent, std::size_t seed_budget) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Remeshed result;
+    for (const double snap : {scale.snap, 0.0, -infinity}) {
+        const FaultMesh carrier = extended_across(part, extent, snap, scale.reach, scale.spacing);
+        result = {};
+        result.seeds_expected = 2 * area(carrier) / (scale.spacing * scale.spacing);
+        if (carrier.triangles.empty() || result.seeds_expected > static_cast<double>(seed_budget)) {
+            break;
+        }
+        result.mesh = suits(carrier, scale.spacing) ? carrier : remeshed(carrier, scale.spacing);
+        const Rounding rounding = round_bends(result.mesh, scale.spacing);
+        result.steepest = rounding.steepest;
+        result.deviation = deviation(carrier, result.mesh, extent, scale.spacing);
+        result.too_rough = !rounding.resolved || result.deviation > max_deviation * scale.spacing;
+        result.rims_left = snap != scale.snap;
+        if (!result.too_rough) {
+            break;
+        }
+    }
+    return result;
+}
+
 /// Extends, remeshes, adds the margin, trims beside the accepted faults, seeds, and tests the separation.
 Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3& extent, const Frame& frame,
                 const std::vector<Fault>& accepted, std::size_t seed_budget) {
@@ -147,32 +183,23 @@ Attempt attempt(const Candidate& candidate, const FaultScale& scale, const Box3&
     FaultMesh whole;  // remeshed, out to the limit
     FaultMesh skirts;
     for (const FaultMesh& part : candidate.repaired.parts) {
-        const FaultMesh carrier = extended_across(part, extent, scale.snap, scale.reach, scale.spacing);
-        if (carrier.triangles.empty()) {
-            continue;
-        }
-        const double expected = 2 * area(carrier) / (scale.spacing * scale.spacing);
-        if (expected > static_cast<double>(seed_budget)) {
-            result.seeds_needed = static_cast<std::size_t>(std::min(expected, 1e15));
-            result.refusal = "needs about " + text(expected) + " seeds";
+        Remeshed meshed = remeshed_part(part, scale, extent, seed_budget);
+        if (meshed.seeds_expected > static_cast<double>(seed_budget)) {
+            result.seeds_needed = static_cast<std::size_t>(std::min(meshed.seeds_expected, 1e15));
+            result.refusal = "needs about " + text(meshed.seeds_expected) + " seeds";
             return result;
         }
-        FaultMesh meshed = carrier;
-        if (!suits(carrier, scale.spacing)) {
-            meshed = remeshed(carrier, scale.spacing);
-        }
-        const Rounding rounding = round_bends(meshed, scale.spacing);
-        result.steepest = std::max(result.steepest, rounding.steepest);
-        result.finer_may_help = result.finer_may_help || !rounding.resolved;
-        result.deviation = std::max(result.deviation, deviation(carrier, meshed, extent, scale.spacing));
-        for (Vec3& p : meshed.points) {
+        result.deviation = std::max(result.deviation, meshed.deviation);
+        result.steepest = std::max(result.steepest, meshed.steepest);
+        result.finer_may_help = result.finer_may_help || meshed.too_rough;
+        result.rims_left = result.rims_left || meshed.rims_left;
+        for (Vec3& p : meshed.mesh.points) {
             p = frame.snapped(p);
         }
-        append(skirts, skirt(meshed, scale.margin, extent, limit));
-        append(whole, meshed);
+        append(skirts, skirt(meshed.mesh, scale.margin, extent, limit));
+        append(whole, meshed.mesh);
     }
-    if (result.finer_may_help || result.deviation > max_deviation * scale.spacing) {
-        result.finer_may_help = true;
+    if (result.finer_may_help) {
         result.refusal = "is too rough for a spacing of " + text(scale.spacing) + ": rounding its bends moves it by " +
                          text(result.deviation) + " or more; choose a smaller spacing, or the exact fault mode";
         return result;
@@ -298,6 +325,10 @@ void settle(FaultAccount& account, double area_inside, const Attempt& outcome) {
     account.area_used = area_inside - account.area_trimmed;
     if (!outcome.trimmed_by.empty()) {
         account.reason = "trimmed beside fault '" + outcome.trimmed_by + "'";
+    }
+    if (outcome.rims_left) {
+        account.reason += std::string(account.reason.empty() ? "" : "; ") +
+                          "rims near the extent's faces end where they ended: extending them would fold the surface";
     }
 }
 

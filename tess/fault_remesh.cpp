@@ -2,17 +2,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_remesh.hpp"
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <numbers>
 
+#include "tess/point_grid.hpp"
+
 namespace terratet {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 Vec3 vec(const Kernel::Point_3& p) {
@@ -51,9 +58,12 @@ FaultMesh from_cgal(SurfaceMesh& mesh) {
     return result;
 }
 
-/// Corners of the rim: where it turns by more than 30°.
-void constrain_corners(const SurfaceMesh& mesh,
-                       SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>& constrained) {
+using CornerMap = SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>;
+
+/// Keeps corners of the rim, where it turns by more than 30°: the sharpest first, and none nearer than half the spacing
+/// to another, or a ragged rim would stay as fine as it came.
+void constrain_corners(const SurfaceMesh& mesh, double spacing, CornerMap& constrained) {
+    std::vector<std::pair<double, SurfaceMesh::Vertex_index>> corners_found;
     for (const auto h : mesh.halfedges()) {
         if (!mesh.is_border(h)) {
             continue;
@@ -61,29 +71,42 @@ void constrain_corners(const SurfaceMesh& mesh,
         const Vec3 before = vec(mesh.point(mesh.source(h)));
         const Vec3 here = vec(mesh.point(mesh.target(h)));
         const Vec3 after = vec(mesh.point(mesh.target(mesh.next(h))));
-        if (dot(unit(here - before), unit(after - here)) < std::cos(std::numbers::pi / 6)) {
-            constrained[mesh.target(h)] = true;
+        const double straightness = dot(unit(here - before), unit(after - here));
+        if (straightness < std::cos(std::numbers::pi / 6)) {
+            corners_found.emplace_back(straightness, mesh.target(h));
+        }
+    }
+    std::sort(corners_found.begin(), corners_found.end());
+    PointGrid kept(0.5 * spacing);
+    for (const auto& [straightness, v] : corners_found) {
+        if (const Vec3 p = vec(mesh.point(v)); !kept.any_within(p, 0.5 * spacing)) {
+            kept.insert(p);
+            constrained[v] = true;
         }
     }
 }
 
 double farthest(const FaultMesh& from, const FaultMesh& to, const Box3& where, double limit) {
-    std::vector<TriangleCorners> triangles;
+    std::vector<Kernel::Triangle_3> triangles;
     for (const Triangle& t : to.triangles) {
-        triangles.push_back(corners(to, t));
+        const auto point = [&](std::size_t k) {
+            const Vec3& p = to.points[t[k]];
+            return Kernel::Point_3(p.x, p.y, p.z);
+        };
+        if (const Kernel::Triangle_3 triangle(point(0), point(1), point(2)); !triangle.is_degenerate()) {
+            triangles.push_back(triangle);
+        }
     }
-    const std::vector<double> reach(triangles.size(), limit);
-    const TriangleGrid grid(std::move(triangles), reach);
+    if (triangles.empty()) {
+        return limit;
+    }
+    Tree tree(triangles.begin(), triangles.end());
+    tree.accelerate_distance_queries();
     double most = 0;
     const auto measure = [&](const Vec3& p) {
-        if (!where.contains(p)) {
-            return;
+        if (where.contains(p)) {
+            most = std::max(most, std::sqrt(tree.squared_distance({p.x, p.y, p.z})));
         }
-        double least = limit * limit;
-        for (const std::uint32_t i : grid.candidates(p)) {
-            least = std::min(least, grid.squared_distance_to(i, p));
-        }
-        most = std::max(most, std::sqrt(least));
     };
     for (const Vec3& p : from.points) {
         measure(p);
@@ -91,7 +114,7 @@ double farthest(const FaultMesh& from, const FaultMesh& to, const Box3& where, d
     for (const Triangle& t : from.triangles) {
         measure(centroid(corners(from, t)));
     }
-    return most;
+    return std::min(most, limit);
 }
 
 std::vector<std::vector<std::uint32_t>> neighbours(const FaultMesh& mesh) {
@@ -150,11 +173,17 @@ FaultMesh remeshed(const FaultMesh& mesh, double spacing) {
             return mesh;
         }
         auto constrained = work.add_property_map<SurfaceMesh::Vertex_index, bool>("v:corner", false).first;
-        constrain_corners(work, constrained);
-        pmp::isotropic_remeshing(
-            work.faces(), spacing, work,
-            CGAL::parameters::number_of_iterations(4).number_of_relaxation_steps(2).vertex_is_constrained_map(
-                constrained));
+        constrain_corners(work, spacing, constrained);
+        const auto run = [&](unsigned iterations, unsigned relaxations) {
+            pmp::isotropic_remeshing(work.faces(), spacing, work,
+                                     CGAL::parameters::number_of_iterations(iterations)
+                                         .number_of_relaxation_steps(relaxations)
+                                         .vertex_is_constrained_map(constrained));
+        };
+        // First to size alone: relaxing takes vertex normals, whose cost explodes where collapsing a fine, torn mesh
+        // has made fans of hundreds of triangles.
+        run(1, 0);
+        run(3, 2);
         FaultMesh result = from_cgal(work);
         const bool sound = std::all_of(result.points.begin(), result.points.end(), is_acceptable);
         if (sound && std::abs(area(result) - area(mesh)) <= 0.1 * area(mesh) &&

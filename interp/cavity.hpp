@@ -27,7 +27,8 @@ class Cavity {
         std::array<std::int32_t, 4> neighbour;  ///< local; negative where the zone ends
     };
 
-    /// The order of cells and vertices depends on the place alone, not on where the walk came from.
+    /// The order of cells and vertices depends on the place alone, not on where the walk came from. The first cell
+    /// contains q, or is the first of the zone where several cells contain q.
     /// \pre q is none of the sites; `at` contains it
     void find(const CompactDelaunay& mesh, const Vec3& q, const CompactDelaunay::Location& at);
 

@@ -115,10 +115,11 @@ void CompactDelaunay::fill_starts() {
     const Vec3 size = bins_box_.size();
     const double longest = std::max({size.x, size.y, size.z});
     const auto wanted = static_cast<double>(1 + points_.size() / sites_per_bin);
-    // Cubic bins as far as the box allows: thin axes get one layer.
+    // Cubic bins, smaller where the box is flat or thin, as there is but one layer of them.
     double edge = longest > 0 ? longest / std::cbrt(wanted) : 1;
     const auto along = [&](double extent) { return std::max(1.0, std::ceil(extent / edge)); };
-    for (; along(size.x) * along(size.y) * along(size.z) < wanted / 2 && edge > longest / wanted; edge *= 0.7) {
+    for (int i = 0; i < 40 && along(size.x) * along(size.y) * along(size.z) < wanted / 2; ++i) {
+        edge *= 0.7;
     }
     bins_ = {static_cast<std::int32_t>(along(size.x)), static_cast<std::int32_t>(along(size.y)),
              static_cast<std::int32_t>(along(size.z))};

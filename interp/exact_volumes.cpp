@@ -4,6 +4,7 @@
 
 #include <CGAL/Exact_rational.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "interp/stolen_volumes.hpp"
@@ -53,10 +54,13 @@ void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3&
     std::vector<Number> volumes(points.size());
     stolen_volumes<ExactVector, Number>(cavity.cells, points, centers, squared, volumes);
 
-    const Number total = std::accumulate(volumes.begin(), volumes.end(), Number(0));
+    // Volumes are not negative, so rounding each before the sum costs no digits, where an exact sum would cost far more
+    // than all the rest: its denominator is the product of theirs.
     shares.resize(volumes.size());
-    for (std::size_t v = 0; v < volumes.size(); ++v) {
-        shares[v] = CGAL::to_double(Number(volumes[v] / total));
+    std::transform(volumes.begin(), volumes.end(), shares.begin(), [](const Number& v) { return CGAL::to_double(v); });
+    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& share : shares) {
+        share /= total;
     }
 }
 

@@ -103,7 +103,9 @@ struct NaturalNeighbour::Impl {
             }
         }
         work.cavity.find(mesh, q, at);
-        if (!shares_in_doubles(work, std::sqrt(cell.squared_radius))) {
+        // Not `cell`: on a facet the walk may have ended on either side.
+        const auto& home = mesh.cells()[static_cast<std::size_t>(work.cavity.cells.front().id)];
+        if (!shares_in_doubles(work, std::sqrt(home.squared_radius))) {
             exact_shares(mesh, work.cavity, q, work.shares);
             out.fallback = true;
         }

@@ -48,7 +48,7 @@ struct Fault {
 
 struct FaultOptions {
     double spacing = 0;      ///< s; 0: l_min
-    double width = 0;        ///< ε; 0: s/4. Below s/20 nearly every gap cell is a sliver
+    double width = 0;        ///< ε, at most s; 0: s/4. Below s/20 nearly every gap cell is a sliver. Halved with s
     double snap = 0;         ///< rims nearer than this to the extent's faces are taken to reach them; 0: s
     std::uint64_t max_seeds = 2'000'000;  ///< over all faults: refuses instead of exhausting the memory
 };
@@ -58,7 +58,7 @@ struct FaultAccount {
     std::string name;
     std::string file;
     bool used = false;
-    std::string reason;          ///< why refused or unused; empty when used whole
+    std::string reason;          ///< why refused, unused or used in part; empty when used whole
     std::size_t parts = 0;       ///< connected sheets after repair
     std::size_t seeds = 0;
     double area_in = 0;          ///< of the surface as read
@@ -66,7 +66,7 @@ struct FaultAccount {
     double area_outside = 0;     ///< beyond the extent
     double area_trimmed = 0;     ///< too near another fault to be separated from it in paired mode
     double area_refused = 0;
-    double deviation_max = 0;    ///< of the remeshed sheet's vertices and centroids from the input surface
+    double deviation_max = 0;    ///< between remeshed and repaired surface, both ways, in the extent
     std::size_t dropped_triangles = 0;  ///< degenerate or duplicate, with area below rounding
 };
 
@@ -81,7 +81,8 @@ double hull_margin(const FaultOptions& options, double l_min);
 
 /// Cleans, cuts to the extent, remeshes, extends and seeds. Never throws for bad geometry: a surface that cannot be used
 /// is refused with its reason. Result independent of the order of `surfaces`; positions snapped to the frame. Throws
-/// Error when max_seeds would be exceeded. Roughly 20 µs a seed.
+/// Error when max_seeds would be exceeded, UsageError for lengths that contradict each other (width above spacing,
+/// negative, not finite). Roughly 0.1 ms a seed.
 /// \pre All coordinates are acceptable (geometry.hpp) and local to `frame`; extent is not empty; l_min > 0.
 FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, double l_min,
                                 const FaultOptions& options = {}, const Progress& progress = {});

@@ -155,8 +155,13 @@ struct Remeshed {
 Remeshed remeshed_part(const FaultMesh& part, const FaultScale& scale, const Box3& extent, std::size_t seed_budget) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Remeshed result;
+    FaultMesh carrier;
     for (const double snap : {scale.snap, 0.0, -infinity}) {
-        const FaultMesh carrier = extended_across(part, extent, snap, scale.reach, scale.spacing);
+        FaultMesh extended = extended_across(part, extent, snap, scale.reach, scale.spacing);
+        if (snap != scale.snap && extended.points == carrier.points && extended.triangles == carrier.triangles) {
+            continue;  // nothing more to leave off
+        }
+        carrier = std::move(extended);
         result = {};
         result.seeds_expected = 2 * area(carrier) / (scale.spacing * scale.spacing);
         if (carrier.triangles.empty() || result.seeds_expected > static_cast<double>(seed_budget)) {

@@ -21,8 +21,9 @@ struct EstimatorCounters {
 
 /// Values of all properties of `model` from its samples (all of them, dropped ones included), in each property's scale.
 /// Properties measured at the same samples share one estimator. A categorical property gets the class of the largest
-/// summed weight (ties: the smaller index). A query exactly on a sample returns its value. Works in parallel (TBB);
-/// results do not depend on it. Both `model` and `faults` must outlive the source.
+/// summed weight (ties: the smaller index). A query exactly on a sample returns its value. The extrapolation is the
+/// largest among the properties that have a value there, 1 where none has. Works in parallel (TBB); results do not depend
+/// on it. Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive the source.
 ValueSource make_model_source(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
                               std::shared_ptr<EstimatorCounters> counters = {});
 

@@ -76,10 +76,36 @@ std::vector<Vec3> places_among(const std::vector<Vec3>& sites, std::size_t count
     return places;
 }
 
+/// A lattice of cubes of edge 10, as many a side.
+std::vector<Vec3> tens(int n) {
+    auto sites = lattice_sites(n);
+    for (auto& p : sites) {
+        p = 10.0 * p;
+    }
+    return sites;
+}
+
+/// Places exactly on the circumsphere of a cube of tens(n), but not inside it: 7² + 5² + 1² = 3·5². All of them also
+/// lie on planes of its facets.
+std::vector<Vec3> tied_places(int n) {
+    std::vector<Vec3> places;
+    for (const Vec3& corner : lattice_sites(n)) {
+        const Vec3 center = 10.0 * corner + Vec3{5, 5, 5};
+        for (const Vec3& d : {Vec3{7, 5, 1}, Vec3{-1, 7, 5}, Vec3{5, -1, -7}, Vec3{-7, -5, 1}, Vec3{1, -5, 7}}) {
+            places.push_back(center + d);
+        }
+    }
+    std::erase_if(places, [n](const Vec3& p) {
+        return !Box3{{11, 11, 11}, {10. * n - 21, 10. * n - 21, 10. * n - 21}}.contains(p);
+    });
+    return places;
+}
+
 std::vector<std::pair<std::string, std::vector<Vec3>>> families() {
     return {{"uniform", uniform_sites(2000)},
             {"400 wells of 250 samples", borehole_sites(400, 250)},
             {"lattice", lattice_sites(10)},
+            {"lattice of tens", tens(7)},
             {"one sphere", cospherical_sites(101)}};
 }
 
@@ -114,6 +140,10 @@ TEST_CASE("Natural neighbour weights sum to 1, are not negative and give the que
         if (name == "lattice") {
             const auto halves = half_points(10);
             places.insert(places.end(), halves.begin(), halves.end());
+        }
+        if (name == "lattice of tens") {
+            const auto tied = tied_places(7);
+            places.insert(places.end(), tied.begin(), tied.end());
         }
         const auto weights = weights_at(estimator, places);
         double worst_sum = 0, worst_mean = 0, worst_weight = 0;
@@ -151,9 +181,11 @@ TEST_CASE("On a site the weight is that site's alone, and a hair off it nearly s
         const auto on = weights_at(estimator, sites);
         std::vector<Vec3> off = sites;
         for (auto& p : off) {
-            p.x += 1e-14 * std::max(1.0, std::abs(p.x));
+            const double hair = 1e-14 * std::max(1.0, length(p));
+            p = p + Vec3{hair, 0, -hair};
         }
         const auto near = weights_at(estimator, off);
+        std::size_t fallbacks = 0;
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
             REQUIRE(on[i].terms.size() == 1);
             REQUIRE(on[i].terms.front().site == i);
@@ -163,6 +195,10 @@ TEST_CASE("On a site the weight is that site's alone, and a hair off it nearly s
                                           [i](const SiteWeight& term) { return term.site == i; });
             REQUIRE(own != near[i].terms.end());
             REQUIRE(own->weight > 1 - 1e-8);
+            fallbacks += near[i].fallback;
+        }
+        if (name == "one sphere") {
+            CHECK(fallbacks > 0);  // doubles are off by 1e-4 here
         }
     }
 }
@@ -202,25 +238,28 @@ TEST_CASE("Natural neighbour weights equal exact differences of Voronoi volumes 
         return places;
     };
     const auto uniform = uniform_sites(400, 22);
-    cases.push_back({"uniform", uniform, inner(uniform, 120)});
+    cases.push_back({"uniform", uniform, inner(uniform, 100)});
     const auto wells = borehole_sites(12, 40, 23);
-    cases.push_back({"wells", wells, inner(wells, 25)});
+    cases.push_back({"wells", wells, inner(wells, 15)});
     const auto lattice = lattice_sites(6);
-    auto lattice_places = inner(lattice, 30);
+    auto lattice_places = inner(lattice, 20);
     for (const Vec3& p : half_points(6)) {
         if (random() < 0.05 && Box3{{1, 1, 1}, {4, 4, 4}}.contains(p) && p.x != std::floor(p.x)) {
             lattice_places.push_back(p);
         }
     }
     cases.push_back({"lattice", lattice, lattice_places});
+    auto tied = tied_places(6);
+    tied.resize(std::min<std::size_t>(tied.size(), 40));
+    cases.push_back({"on spheres", tens(6), tied});
     const auto sphere = cospherical_sites(41);
-    cases.push_back({"one sphere", sphere, inner(sphere, 20)});
+    cases.push_back({"one sphere", sphere, inner(sphere, 10)});
     // Tenths are no doubles: cells of rounding errors' volume between the tied ones.
     auto tenths = lattice_sites(6);
     for (auto& p : tenths) {
         p = 0.1 * p;
     }
-    cases.push_back({"lattice of tenths", tenths, inner(tenths, 30)});
+    cases.push_back({"lattice of tenths", tenths, inner(tenths, 20)});
 
     std::size_t compared = 0;
     for (const auto& [name, sites, places] : cases) {
@@ -270,11 +309,9 @@ TEST_CASE("Linear fields are reproduced inside the hull") {
 
 TEST_CASE(
     "R6: natural neighbour weights have the same bits at any thread count and in any order of queries and sites") {
-    auto sets = families();
-    sets.push_back({"480 sites on one sphere", cospherical_sites(1001)});
-    for (const auto& [name, sites] : sets) {
+    for (const auto& [name, sites] : families()) {
         CAPTURE(name);
-        const auto places = places_among(sites, sites.size() == 480 ? 20 : 300, 41);
+        const auto places = places_among(sites, 300, 41);
         const NaturalNeighbour estimator(sites, nullptr);
         const auto weights_with = [&](std::size_t threads) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

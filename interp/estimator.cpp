@@ -125,7 +125,7 @@ EstimatorSpec parse_estimator(const std::string& text) {
 }
 
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
-                                          const FaultProximity* faults) {
+                                          const FaultProximity* faults, std::vector<std::int32_t> /*boreholes*/) {
     const Method& method = method_named(spec.name);
     if (method.name == "nearest") {
         return std::make_unique<Nearest>(std::move(sites), faults);

@@ -13,6 +13,7 @@
 /// A place all of whose samples are hidden gets no value.
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -45,6 +46,8 @@ struct Weights {
     std::vector<SiteWeight> terms;
     double extrapolation = 0;  ///< share of the estimate that lies beyond the sites' reach, 0…1
     bool fallback = false;     ///< computed by a slower or simpler way than the method's own
+    double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the estimate's error in the scale's unit
+                                                                 ///< squared; NaN where the method knows none
 };
 
 class Estimator {
@@ -53,11 +56,16 @@ class Estimator {
 
     /// Weights at each query, out[i] for queries[i]. Const, reentrant, and each result independent of the others.
     virtual void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const = 0;
+
+    /// Do its weights come with a variance of their own?
+    [[nodiscard]] virtual bool has_variance() const { return false; }
 };
 
-/// \param sites  distinct positions, at least one
-/// \param faults barriers; must outlive the estimator; may be null
+/// \param sites     distinct positions, at least one
+/// \param faults    barriers; must outlive the estimator; may be null
+/// \param boreholes of each site its borehole, −1 for a loose one, for methods that limit how many of one borehole they
+///                  take; empty: all loose
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
-                                          const FaultProximity* faults);
+                                          const FaultProximity* faults, std::vector<std::int32_t> boreholes = {});
 
 }  // namespace terratet

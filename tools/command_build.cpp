@@ -14,7 +14,12 @@ class Build final : public Command {
         Syntax syntax{"build", site_options(build_.site), {}};
         append(syntax, model_options(build_.model));
         append(syntax, {{"Output",
-                         {{{"o", "output"}, "MODEL.gpkg", "the model: a GeoPackage, or PG:… for PostGIS", &output_}}}});
+                         {{{"o", "output"}, "MODEL.gpkg", "the model: a GeoPackage, or PG:… for PostGIS", &output_},
+                          {{"uncertainty"},
+                           "",
+                           "keep each property's standard deviation, extrapolation and number of samples with the "
+                           "vertices; of a category the classes' probabilities and entropy",
+                           &build_.exporting.uncertainty}}}});
         append(syntax, run_options(build_.run));
         return syntax;
     }

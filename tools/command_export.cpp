@@ -5,6 +5,7 @@
 #include "tess/error.hpp"
 #include "tools/command.hpp"
 #include "tools/outputs.hpp"
+#include "tools/pipeline.hpp"
 #include "tools/progress_display.hpp"
 #include "tools/report.hpp"
 #include "tools/run_build.hpp"
@@ -34,7 +35,10 @@ class Export final : public Command {
         check_outputs(outputs, {input}, exporting_, run_);
 
         const ThreadLimit threads(run_.threads);
-        const Model model = load_model(input);
+        Model model = load_model(input);
+        if (exporting_.uncertainty) {
+            describe_uncertainty(model);
+        }
         RunRecord record;
         record.model = &model;
         const Stopwatch writing;

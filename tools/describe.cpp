@@ -52,8 +52,10 @@ Json property_json(const Model& model, std::size_t p) {
         json["classes"] = property.classes;
     } else {
         json["scale"] = property.scale == Scale::log10 ? "log10" : "linear";
-        json["min"] = range.lo;
-        json["max"] = range.hi;
+        if (range.count > 0) {  // none: a property of the vertices alone
+            json["min"] = range.lo;
+            json["max"] = range.hi;
+        }
     }
     json["samples"] = range.count;
     return json;

@@ -65,6 +65,11 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
                   "",
                   "VDB: coordinates from the model's origin, for Blender and Houdini",
                   &a.local_origin},
+                 {{"uncertainty"},
+                  "",
+                  "with each property's standard deviation, extrapolation and number of samples; of a category "
+                  "the classes' probabilities and entropy",
+                  &a.uncertainty},
                  {{"color"}, "PROPERTY", "glTF: what to colour by; the first by default", &a.color},
                  {{"color-map"}, "NAME", "glTF: viridis by default", &a.color_map},
                  {{"co"}, "KEY=VALUE", "the same as creation options: -co COMPRESS=YES", &a.creation_options},

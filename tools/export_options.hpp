@@ -18,6 +18,7 @@ struct ExportArguments {
     bool clip = false;
     bool compress = false;
     bool local_origin = false;
+    bool uncertainty = false;
     std::string color;
     std::string color_map = ExportOptions{}.color_map;
     std::vector<std::string> creation_options;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interp/model_source.hpp"
+#include "interp/uncertainty.hpp"
 #include "tools/text.hpp"
 
 namespace terratet::tools {
@@ -73,6 +74,12 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     all.rejected.insert(all.rejected.end(), built.rejected.begin(), built.rejected.end());
     all.notes.insert(all.notes.end(), built.notes.begin(), built.notes.end());
     return model;
+}
+
+void describe_uncertainty(Model& model) {
+    const FaultProximity faults(model.faults);
+    const ModelEstimator estimator(model, faults, parse_estimator(model.estimator), {}, {.uncertainty = true});
+    add_uncertainty(model, estimator);
 }
 
 std::uint64_t unmet_cells(const RefineReport& report) {

@@ -35,6 +35,10 @@ void check_before_reading(const SiteArguments& site, const ModelArguments& model
 Model read_and_build(const SiteArguments& site, const ModelArguments& model, const RunArguments& run,
                      const Progress& progress, BuildRecord& record);
 
+/// Adds what the model's own estimator knows about its values (interp/uncertainty.hpp). Throws InputError when the
+/// model names an estimator that this version does not have.
+void describe_uncertainty(Model& model);
+
 /// Bad cells that no exemption covers: what --strict turns into exit code 4.
 std::uint64_t unmet_cells(const RefineReport& report);
 

@@ -39,6 +39,9 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
         ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
         const Progress progress = display.callback();
         model = read_and_build(a.site, a.model, a.run, progress, build);
+        if (a.exporting.uncertainty) {
+            describe_uncertainty(model);
+        }
         const Stopwatch writing;
         if (!a.run.report.empty() || !std::all_of(a.outputs.begin(), a.outputs.end(), names_model)) {
             meshed = mesh_model(model, !a.run.report.empty());

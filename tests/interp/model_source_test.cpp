@@ -24,6 +24,7 @@ Model model_of(const std::vector<Vec3>& sites) {
                         {"rock", "", Scale::linear, Kind::categorical, {"clay", "gneiss", "granite"}},
                         {"nothing", "", Scale::linear, Kind::continuous, {}}};
     model.samples.positions = sites;
+    model.samples.borehole.assign(model.samples.size(), -1);
     model.samples.values.assign(4, std::vector<double>(sites.size(), missing));
     for (std::size_t i = 0; i < sites.size(); ++i) {
         const Vec3& p = sites[i];
@@ -103,6 +104,7 @@ TEST_CASE("A category is the class of the largest weight, the smaller index when
     Model model;
     model.properties = {{"rock", "", Scale::linear, Kind::categorical, {"a", "b", "c"}}};
     model.samples.positions = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
+    model.samples.borehole.assign(model.samples.size(), -1);
     const auto source_of = [&](std::vector<double> classes) {
         model.samples.values = {std::move(classes)};
         return make_model_source(model, no_faults(),
@@ -145,6 +147,7 @@ TEST_CASE("E1: with 0 on one side of a fault and 1 on the other every estimate i
     Model model;
     model.properties = {{"side", "", Scale::linear, Kind::continuous, {}}};
     model.samples.positions = uniform_sites(800, 6);
+    model.samples.borehole.assign(model.samples.size(), -1);
     model.samples.values.resize(1);
     for (const Vec3& p : model.samples.positions) {
         model.samples.values[0].push_back(p.x > 500 ? 1 : 0);
@@ -162,6 +165,7 @@ TEST_CASE("Estimates between values stay within them") {
     Model model;
     model.properties = {{"noise", "", Scale::linear, Kind::continuous, {}}};
     model.samples.positions = uniform_sites(2000, 8);
+    model.samples.borehole.assign(model.samples.size(), -1);
     Random random(9);
     model.samples.values = {std::vector<double>(2000)};
     for (double& value : model.samples.values[0]) {

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/folds.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+#include "interp/morton.hpp"
+
+namespace terratet {
+namespace {
+
+using Fold = std::vector<std::uint32_t>;
+
+/// Runs along the Morton curve: neighbours fall into the same block.
+std::vector<Fold> blocks(const Samples& samples, std::span<const std::uint32_t> which, const Fold& loose,
+                         std::size_t count) {
+    std::vector<Vec3> places;
+    for (const std::uint32_t i : loose) {
+        places.push_back(samples.positions[which[i]]);
+    }
+    const auto order = morton_order(places);
+    count = std::min(count, loose.size());
+    std::vector<Fold> folds(count);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        folds[k * count / order.size()].push_back(loose[order[k]]);
+    }
+    return folds;
+}
+
+}  // namespace
+
+std::vector<Fold> folds_of(const Samples& samples, std::span<const std::uint32_t> which, std::size_t max_folds,
+                           std::size_t loose_folds) {
+    assert(loose_folds > 0);
+    std::map<std::int32_t, Fold> holes;
+    Fold loose;
+    for (std::uint32_t i = 0; i < which.size(); ++i) {
+        const std::int32_t hole = samples.borehole[which[i]];
+        (hole < 0 ? loose : holes[hole]).push_back(i);
+    }
+    std::vector<Fold> folds;
+    for (auto& [hole, fold] : holes) {
+        folds.push_back(std::move(fold));
+    }
+    auto of_loose = blocks(samples, which, loose, loose_folds);
+    std::move(of_loose.begin(), of_loose.end(), std::back_inserter(folds));
+    if (max_folds > 0 && folds.size() > max_folds) {
+        for (std::size_t f = max_folds; f < folds.size(); ++f) {
+            auto& shared = folds[f % max_folds];
+            shared.insert(shared.end(), folds[f].begin(), folds[f].end());
+        }
+        folds.resize(max_folds);
+    }
+    return folds;
+}
+
+void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
+                       const std::function<void(std::uint32_t site, const Weights& weights)>& visit) {
+    std::vector<std::uint32_t> fold_of(sites.size());
+    for (std::uint32_t f = 0; f < folds.size(); ++f) {
+        for (const std::uint32_t i : folds[f]) {
+            fold_of[i] = f;
+        }
+    }
+    for (std::uint32_t f = 0; f < folds.size(); ++f) {
+        std::vector<std::uint32_t> kept;
+        for (std::uint32_t i = 0; i < sites.size(); ++i) {
+            if (fold_of[i] != f) {
+                kept.push_back(i);
+            }
+        }
+        std::vector<ValueQuery> queries;
+        for (const std::uint32_t i : folds[f]) {
+            queries.push_back({sites[i], -1, 0});
+        }
+        std::vector<Weights> weights(queries.size());
+        if (!kept.empty()) {
+            make(kept)->weights(queries, weights);
+        }
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            for (auto& term : weights[k].terms) {
+                term.site = kept[term.site];
+            }
+            visit(folds[f][k], weights[k]);
+        }
+    }
+}
+
+}  // namespace terratet

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/model_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "interp/folds.hpp"
+#include "interp/local_error.hpp"
+#include "interp/query_order.hpp"
+
+namespace terratet {
+namespace {
+
+/// Weights of so many queries are held at a time.
+constexpr std::size_t block_size = 4096;
+
+/// A property's values at the sites of its group.
+struct Column {
+    std::size_t property;
+    std::vector<double> measured;
+    std::vector<double> scaled;
+    std::optional<LocalError> local_error;
+};
+
+/// Properties measured at the same samples, and the estimator over those.
+struct Group {
+    std::vector<std::uint32_t> samples;
+    std::vector<Vec3> sites;
+    std::vector<Column> columns;
+    std::unique_ptr<Estimator> estimator;
+};
+
+Column column_of(const Model& model, std::size_t p, const std::vector<std::uint32_t>& samples) {
+    Column column{p, {}, {}, {}};
+    for (const std::uint32_t s : samples) {
+        column.measured.push_back(model.samples.values[p][s]);
+        column.scaled.push_back(to_scale(model.properties[p], column.measured.back()));
+    }
+    return column;
+}
+
+template <typename T>
+std::vector<T> picked(const std::vector<T>& from, std::span<const std::uint32_t> which) {
+    std::vector<T> out;
+    out.reserve(which.size());
+    for (const std::uint32_t i : which) {
+        out.push_back(from[i]);
+    }
+    return out;
+}
+
+/// One for each distinct set of samples; a property without any is in no group and gets no values.
+std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec) {
+    std::map<std::vector<std::uint32_t>, std::vector<std::size_t>> properties_at;
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        std::vector<std::uint32_t> present;
+        for (std::uint32_t s = 0; s < model.samples.size(); ++s) {
+            if (!std::isnan(to_scale(model.properties[p], model.samples.values[p][s]))) {
+                present.push_back(s);
+            }
+        }
+        if (!present.empty()) {
+            properties_at[std::move(present)].push_back(p);
+        }
+    }
+    std::vector<Group> groups;
+    for (const auto& [samples, properties] : properties_at) {
+        Group& group = groups.emplace_back();
+        group.samples = samples;
+        group.sites = picked(model.samples.positions, samples);
+        for (const std::size_t p : properties) {
+            group.columns.push_back(column_of(model, p, samples));
+        }
+        group.estimator = make_estimator(spec, group.sites, &faults, picked(model.samples.borehole, samples));
+    }
+    return groups;
+}
+
+/// Leaves boreholes out to learn how far estimates are off.
+void learn_errors(Group& group, const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
+                  std::size_t max_folds) {
+    for (auto& column : group.columns) {
+        if (model.properties[column.property].kind == Kind::continuous) {
+            column.local_error.emplace(group.sites, column.scaled);
+        }
+    }
+    const auto boreholes = picked(model.samples.borehole, group.samples);
+    const auto make = [&](std::span<const std::uint32_t> kept) {
+        return make_estimator(spec, picked(group.sites, kept), &faults, picked(boreholes, kept));
+    };
+    for_each_left_out(group.sites, folds_of(model.samples, group.samples, max_folds), make,
+                      [&](std::uint32_t site, const Weights& weights) {
+                          for (auto& column : group.columns) {
+                              if (column.local_error) {
+                                  column.local_error->add(site, weights);
+                              }
+                          }
+                      });
+    for (auto& column : group.columns) {
+        if (column.local_error) {
+            column.local_error->pool(&faults);
+        }
+    }
+}
+
+/// Summed by class, in ascending order of the class.
+std::map<double, double> weight_by_class(const std::vector<SiteWeight>& terms, const Column& column) {
+    std::map<double, double> weight_of;
+    for (const auto& [site, weight] : terms) {
+        weight_of[column.measured[site]] += weight;
+    }
+    return weight_of;
+}
+
+/// The class with the largest summed weight; of equal ones the smaller index.
+double heaviest_class(const std::vector<SiteWeight>& terms, const Column& column) {
+    const auto weight_of = weight_by_class(terms, column);
+    return std::max_element(weight_of.begin(), weight_of.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+double estimate(const Property& property, const std::vector<SiteWeight>& terms, const Column& column) {
+    if (terms.empty()) {
+        return missing;
+    }
+    if (terms.size() == 1) {
+        return column.measured[terms.front().site];  // as measured, not by way of its logarithm
+    }
+    if (property.kind == Kind::categorical) {
+        return heaviest_class(terms, column);
+    }
+    double sum = 0;
+    for (const auto& [site, weight] : terms) {
+        sum += weight * column.scaled[site];
+    }
+    return from_scale(property, sum);
+}
+
+/// Sets query i's probabilities and entropy.
+void set_probabilities(const std::vector<SiteWeight>& terms, const Column& column, std::size_t i,
+                       PropertyEstimates& out) {
+    const auto weight_of = weight_by_class(terms, column);
+    double total = 0;
+    for (const auto& [index, weight] : weight_of) {
+        total += std::max(weight, 0.0);
+    }
+    for (auto& probability : out.probability) {
+        probability[i] = 0;
+    }
+    double entropy = 0;
+    for (const auto& [index, weight] : weight_of) {
+        const double p = std::max(weight, 0.0) / total;
+        out.probability[static_cast<std::size_t>(index)][i] = p;
+        entropy -= p > 0 ? p * std::log2(p) : 0;
+    }
+    out.entropy[i] = std::max(entropy, 0.0);
+}
+
+PropertyEstimates no_estimates(const Property& property, std::size_t count) {
+    PropertyEstimates out;
+    out.value.assign(count, missing);
+    out.deviation.assign(count, missing);
+    out.extrapolation.assign(count, 1.0);
+    out.samples.assign(count, 0);
+    if (property.kind == Kind::categorical) {
+        out.probability.assign(property.classes.size(), std::vector<double>(count, missing));
+        out.entropy.assign(count, missing);
+    }
+    return out;
+}
+
+}  // namespace
+
+const char* to_string(DeviationSource source) {
+    constexpr const char* names[] = {"none", "kriging", "cross-validated"};
+    return names[static_cast<std::size_t>(source)];
+}
+
+struct ModelEstimator::Impl {
+    const Model& model;
+    std::vector<Group> groups;
+    std::shared_ptr<EstimatorCounters> counters;
+
+    /// Calls work(group, place, weights, queries): weights of a block of queries at a time, near each other, or each
+    /// would walk over all of the memory; place[k] is the block's k-th query's index in `queries`.
+    template <typename Work>
+    void for_each_block(std::span<const ValueQuery> queries, const Work& work) const {
+        const bool single = queries.size() <= block_size;
+        const auto order = single ? std::vector<std::uint32_t>() : spatial_order(queries);
+        std::vector<ValueQuery> sorted;
+        for (std::size_t begin = 0; begin < queries.size(); begin += block_size) {
+            const std::size_t count = std::min(block_size, queries.size() - begin);
+            auto block = queries;
+            if (!single) {
+                sorted.clear();
+                for (const std::uint32_t i : std::span(order).subspan(begin, count)) {
+                    sorted.push_back(queries[i]);
+                }
+                block = sorted;
+            }
+            work(block, [&](std::size_t k) { return single ? k : order[begin + k]; });
+        }
+        if (counters) {
+            counters->queries += queries.size();
+        }
+    }
+
+    void count_fallbacks(const std::vector<std::uint8_t>& fallback) const {
+        if (counters) {
+            counters->fallbacks +=
+                static_cast<std::uint64_t>(std::count(fallback.begin(), fallback.end(), std::uint8_t(1)));
+        }
+    }
+
+    template <typename Place>
+    void value_block(std::span<const ValueQuery> queries, const Place& place, ValueBatch& batch) const {
+        std::vector<Weights> weights(queries.size());
+        std::vector<double> extrapolation(queries.size(), -1);  // below any: no value yet
+        std::vector<std::uint8_t> fallback(queries.size(), 0);
+        for (const auto& group : groups) {
+            group.estimator->weights(queries, weights);
+            for (std::size_t k = 0; k < queries.size(); ++k) {
+                if (!weights[k].terms.empty()) {
+                    extrapolation[k] = std::max(extrapolation[k], weights[k].extrapolation);
+                }
+                fallback[k] |= static_cast<std::uint8_t>(weights[k].fallback);
+                for (const auto& column : group.columns) {
+                    batch.values[column.property][place(k)] =
+                        estimate(model.properties[column.property], weights[k].terms, column);
+                }
+            }
+        }
+        for (std::size_t k = 0; k < queries.size(); ++k) {
+            if (extrapolation[k] >= 0) {
+                batch.extrapolation[place(k)] = extrapolation[k];
+            }
+        }
+        count_fallbacks(fallback);
+    }
+
+    template <typename Place>
+    void estimate_block(std::span<const ValueQuery> queries, const Place& place,
+                        std::vector<PropertyEstimates>& out) const {
+        std::vector<Weights> weights(queries.size());
+        std::vector<std::uint8_t> fallback(queries.size(), 0);
+        for (const auto& group : groups) {
+            group.estimator->weights(queries, weights);
+            for (std::size_t k = 0; k < queries.size(); ++k) {
+                fallback[k] |= static_cast<std::uint8_t>(weights[k].fallback);
+                if (weights[k].terms.empty()) {
+                    continue;
+                }
+                for (const auto& column : group.columns) {
+                    set_estimate(column, queries[k].position, weights[k], place(k), out[column.property]);
+                }
+            }
+        }
+        count_fallbacks(fallback);
+    }
+
+    void set_estimate(const Column& column, const Vec3& position, const Weights& weights, std::size_t i,
+                      PropertyEstimates& out) const {
+        const Property& property = model.properties[column.property];
+        out.value[i] = estimate(property, weights.terms, column);
+        out.extrapolation[i] = weights.extrapolation;
+        out.samples[i] = static_cast<std::uint32_t>(weights.terms.size());
+        if (property.kind == Kind::categorical) {
+            set_probabilities(weights.terms, column, i, out);
+        } else if (!std::isnan(weights.variance)) {
+            out.deviation[i] = std::sqrt(weights.variance);
+        } else if (column.local_error) {
+            out.deviation[i] = column.local_error->standard_deviation(position, weights.terms);
+        }
+    }
+};
+
+ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
+                               std::shared_ptr<EstimatorCounters> counters, const ModelEstimatorOptions& options)
+    : impl_(new Impl{model, groups_of(model, faults, spec), std::move(counters)}) {
+    if (options.uncertainty) {
+        for (auto& group : impl_->groups) {
+            if (group.estimator->has_variance()) {
+                continue;
+            }
+            learn_errors(group, model, faults, spec, options.error_folds);
+        }
+    }
+}
+
+ModelEstimator::~ModelEstimator() = default;
+
+ValueBatch ModelEstimator::values(std::span<const ValueQuery> queries) const {
+    ValueBatch batch;
+    batch.values.assign(impl_->model.properties.size(), std::vector<double>(queries.size(), missing));
+    batch.extrapolation.assign(queries.size(), 1.0);
+    impl_->for_each_block(queries, [&](std::span<const ValueQuery> block, const auto& place) {
+        impl_->value_block(block, place, batch);
+    });
+    return batch;
+}
+
+std::vector<PropertyEstimates> ModelEstimator::estimates(std::span<const ValueQuery> queries) const {
+    std::vector<PropertyEstimates> out;
+    for (const auto& property : impl_->model.properties) {
+        out.push_back(no_estimates(property, queries.size()));
+    }
+    for (const auto& group : impl_->groups) {
+        for (const auto& column : group.columns) {
+            if (impl_->model.properties[column.property].kind == Kind::continuous) {
+                out[column.property].deviation_source = group.estimator->has_variance() ? DeviationSource::kriging
+                                                        : column.local_error ? DeviationSource::cross_validated
+                                                                             : DeviationSource::none;
+            }
+        }
+    }
+    impl_->for_each_block(queries, [&](std::span<const ValueQuery> block, const auto& place) {
+        impl_->estimate_block(block, place, out);
+    });
+    return out;
+}
+
+}  // namespace terratet

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Estimates of a model's properties from its samples (all of them, dropped ones included), with what is known about
+/// their quality. Properties measured at the same samples share one estimator.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "interp/estimator.hpp"
+#include "tess/model.hpp"
+
+namespace terratet {
+
+struct EstimatorCounters {
+    std::atomic<std::uint64_t> queries{0};
+    std::atomic<std::uint64_t> fallbacks{0};
+};
+
+/// Where a standard deviation comes from.
+enum class DeviationSource : std::uint8_t {
+    none,             ///< a category (its entropy says it), or too few boreholes to leave one out
+    kriging,          ///< the square root of the kriging variance: exact for its variogram
+    cross_validated,  ///< the local error of leaving boreholes out (local_error.hpp): experience
+};
+
+/// "none", "kriging", "cross-validated".
+const char* to_string(DeviationSource source);
+
+/// One property at each query, columns of equal length.
+struct PropertyEstimates {
+    std::vector<double> value;      ///< measured unit, or a class's index; NaN: no value
+    std::vector<double> deviation;  ///< standard deviation in the property's scale (decades for log10); NaN: unknown
+    std::vector<double> extrapolation;   ///< 0…1; 1 where there is no value
+    std::vector<std::uint32_t> samples;  ///< how many samples have a weight; 0: no value
+    DeviationSource deviation_source = DeviationSource::none;
+
+    /// Categories only. Weights summed by class, negative sums cut off, scaled to sum to 1; NaN without a value.
+    std::vector<std::vector<double>> probability;  ///< [class][query]
+    std::vector<double> entropy;                   ///< of the probabilities, in bits; 0: certain
+};
+
+struct ModelEstimatorOptions {
+    bool uncertainty = false;      ///< prepares standard deviations: up to 20 further estimators
+    std::size_t error_folds = 20;  ///< boreholes share so many folds, for methods without a variance of their own
+};
+
+class ModelEstimator {
+  public:
+    /// Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive this.
+    ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
+                   std::shared_ptr<EstimatorCounters> counters = {}, const ModelEstimatorOptions& options = {});
+    ~ModelEstimator();
+
+    /// Values only, the refiner's way. In each property's scale; a category gets the class of the largest summed weight
+    /// (ties: the smaller index). A query exactly on a sample returns its value. The extrapolation is the largest among
+    /// the properties that have a value there, 1 where none has. Parallel (TBB); results do not depend on it, nor on
+    /// the batch.
+    [[nodiscard]] ValueBatch values(std::span<const ValueQuery> queries) const;
+
+    /// Everything, one entry a property of the model; a property without samples has no values. Deviations are unknown
+    /// unless options.uncertainty was set.
+    [[nodiscard]] std::vector<PropertyEstimates> estimates(std::span<const ValueQuery> queries) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terratet

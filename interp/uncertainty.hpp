@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What is known about a model's values, as further properties of its vertices, so that every output carries it.
+
+#include "interp/model_estimator.hpp"
+#include "tess/model.hpp"
+
+namespace terratet {
+
+/// Appends to the model, for each property with samples, properties that no sample has, estimated at the vertices:
+///   NAME_sd             standard deviation, in the property's unit, or in decades for the log10 scale
+///   NAME_extrapolation  0…1
+///   NAME_samples        how many samples have a weight
+/// and for a category instead of the first NAME_entropy (bits) and a NAME_p_CLASS for each class. Those that are there
+/// from an earlier call are replaced.
+/// \param estimator  of this model, with uncertainty prepared; not used afterwards: the model it reads has changed
+void add_uncertainty(Model& model, const ModelEstimator& estimator);
+
+}  // namespace terratet

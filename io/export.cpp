@@ -72,7 +72,7 @@ std::string output_format(const std::string& path, const std::string& override_f
 }
 
 Vec3 resolved_voxel_size(const ModelView& view, const ExportOptions& options) {
-    const Vec3 side = view.model.domain.extent.size();
+    const Vec3 side = view.model.frame.to_world_size(view.model.domain.extent.size());
     const double automatic = rounded_1_2_5(std::max({side.x, side.y, side.z}) / 128);
     Vec3 size = options.voxel_size;
     for (int axis = 0; axis < 3; ++axis) {

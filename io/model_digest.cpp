@@ -108,13 +108,17 @@ class Hash {
         const auto& [df_min, df_max] = v;
         add_all(df_min, df_max);
     }
+    void add(const ResolutionOverride& o) {
+        const auto& [where, box, point, l_min, l_max] = o;
+        add_all(where, box, point, l_min, l_max);
+    }
     void add(const Vertex& v) {
         const auto& [id, position, role, owner, side] = v;
         add_all(id, position, role, owner, side);
     }
     void add(const Frame& f) {
-        const auto& [crs_wkt, crs_name, unit, metres_per_unit, origin] = f;
-        add_all(crs_wkt, crs_name, unit, metres_per_unit, origin);
+        const auto& [crs_wkt, crs_name, unit, metres_per_unit, origin, z_scale] = f;
+        add_all(crs_wkt, crs_name, unit, metres_per_unit, origin, z_scale);
     }
     void add(const Samples& s) {
         const auto& [positions, borehole, depth, length, values] = s;
@@ -125,8 +129,8 @@ class Hash {
         add_all(extent, hull);
     }
     void add(const Criteria& c) {
-        const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation] = c;
-        add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation);
+        const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides] = c;
+        add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides);
     }
     void add(const FaultOptions& o) {
         const auto& [spacing, width, snap, max_seeds] = o;

@@ -54,12 +54,17 @@ json frame_json(const Frame& frame) {
             {"crs_name", frame.crs_name},
             {"unit", frame.unit},
             {"metres_per_unit", number(frame.metres_per_unit)},
-            {"origin", vector(frame.origin)}};
+            {"origin", vector(frame.origin)},
+            {"z_scale", number(frame.z_scale)}};
 }
 
 Frame frame_of(const json& j) {
-    return {j.at("crs_wkt").get<std::string>(), j.at("crs_name").get<std::string>(), j.at("unit").get<std::string>(),
-            number(j.at("metres_per_unit")), vector(j.at("origin"))};
+    return {j.at("crs_wkt").get<std::string>(),
+            j.at("crs_name").get<std::string>(),
+            j.at("unit").get<std::string>(),
+            number(j.at("metres_per_unit")),
+            vector(j.at("origin")),
+            number(j.at("z_scale"))};
 }
 
 json properties_json(const std::vector<Property>& properties, const std::vector<std::string>& columns) {
@@ -100,6 +105,12 @@ json criteria_json(const Criteria& c) {
     for (const VariationLimits& limits : c.variation) {
         variation.push_back({{"df_min", number(limits.df_min)}, {"df_max", number(limits.df_max)}});
     }
+    json overrides = json::array();
+    for (const ResolutionOverride& part : c.overrides) {
+        const json where = part.where == ResolutionOverride::Where::box ? json{{"box", box(part.box)}}
+                                                                        : json{{"block_at", vector(part.point)}};
+        overrides.push_back({{"where", where}, {"l_min", number(part.l_min)}, {"l_max", number(part.l_max)}});
+    }
     return {{"l_min", number(c.l_min)},
             {"l_max", number(c.l_max)},
             {"radius_edge", number(c.radius_edge)},
@@ -107,7 +118,8 @@ json criteria_json(const Criteria& c) {
             {"v_min", number(c.v_min)},
             {"v_max", number(c.v_max)},
             {"dihedral_deg", number(c.dihedral_deg)},
-            {"variation", variation}};
+            {"variation", variation},
+            {"overrides", overrides}};
 }
 
 Criteria criteria_of(const json& j) {
@@ -121,6 +133,18 @@ Criteria criteria_of(const json& j) {
     c.dihedral_deg = number(j.at("dihedral_deg"));
     for (const json& limits : j.at("variation")) {
         c.variation.push_back({number(limits.at("df_min")), number(limits.at("df_max"))});
+    }
+    for (const json& part : j.at("overrides")) {
+        ResolutionOverride read;
+        if (const json& where = part.at("where"); where.contains("box")) {
+            read.box = box(where.at("box"));
+        } else {
+            read.where = ResolutionOverride::Where::block;
+            read.point = vector(where.at("block_at"));
+        }
+        read.l_min = number(part.at("l_min"));
+        read.l_max = number(part.at("l_max"));
+        c.overrides.push_back(read);
     }
     return c;
 }
@@ -253,8 +277,10 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
     } catch (const json::exception& error) {
         throw InputError(file + ": layer " + schema::meta + ", key " + key + " is damaged: " + error.what());
     }
-    if (!is_finite(content.model.frame.origin)) {
-        throw InputError(file + ": layer " + schema::meta + ", key frame: the origin is no number");
+    if (const Frame& frame = content.model.frame;
+        !is_finite(frame.origin) || !std::isfinite(frame.z_scale) || frame.z_scale <= 0) {
+        throw InputError(file + ": layer " + schema::meta +
+                         ", key frame: the origin or the z scale is no usable number");
     }
     content.model.estimator = value("estimator");
     const auto digest = meta.find("digest");

@@ -269,16 +269,22 @@ void for_each_position(Site& site, const Visit& visit) {
     }
 }
 
-Frame frame_of(const Crs& crs, const Box3& extent) {
-    return {crs.local ? "" : crs.wkt, crs.name, crs.unit, crs.metres_per_unit, choose_origin(extent)};
+Frame frame_of(const Crs& crs, const Box3& extent, double z_scale) {
+    return {crs.local ? "" : crs.wkt, crs.name, crs.unit, crs.metres_per_unit, choose_origin(extent), z_scale};
 }
 
 /// From true coordinates to frame-local ones.
-void localize(Site& site, const Crs& target) {
+void localize(Site& site, const Crs& target, double z_scale) {
     Box3 extent;
     for_each_position(site, [&](const Vec3& point) { extent.extend(point); });
-    site.frame = frame_of(target, extent);
-    for_each_position(site, [&](Vec3& point) { point = site.frame.snapped(site.frame.to_local(point)); });
+    site.frame = frame_of(target, extent, z_scale);
+    for_each_position(site, [&](Vec3& point) {
+        point = site.frame.snapped(site.frame.to_local(point));
+        if (!is_acceptable(point)) {
+            throw UsageError("--z-scale " + std::to_string(z_scale) + " takes heights beyond " +
+                             std::to_string(max_coordinate) + "; use a smaller one");
+        }
+    });
 }
 
 bool surface_before(const Surface& a, const Surface& b) {
@@ -327,7 +333,7 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
     for (RawSurfaces& raw : read.surfaces) {
         std::ranges::move(raw.surfaces, std::back_inserter(site.surfaces));
     }
-    localize(site, target);
+    localize(site, target, inputs.z_scale);
     site.samples = selected(site.samples, canonical_order(site.samples));
     std::ranges::sort(site.surfaces, surface_before);
 

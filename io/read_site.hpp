@@ -49,6 +49,7 @@ struct SiteInputs {
     AzimuthReference azimuth = AzimuthReference::grid;
     double declination_deg = 0;  ///< magnetic only, east positive
     std::string depth_unit;      ///< of depths and lengths along holes: "m", "ft"; empty: the collars' own CRS's unit
+    double z_scale = 1;          ///< of the frame
     bool strict = false;         ///< the first dirty record is an InputError
 };
 

@@ -9,7 +9,7 @@
 
 namespace terratet {
 
-SceneFrame::SceneFrame(const Model& model) : scale_(model.frame.metres_per_unit) {
+SceneFrame::SceneFrame(const Model& model) : frame_(model.frame) {
     const Box3& extent = model.domain.extent;
     const double step = std::pow(10.0, std::floor(std::log10(extent.diagonal() / 100)));
     const Vec3 middle = model.frame.to_world(extent.center());

@@ -22,14 +22,19 @@ class SceneFrame {
     /// The origin is near the middle of the extent, where single precision is finest, on a round number.
     explicit SceneFrame(const Model& model);
 
-    [[nodiscard]] Vec3 position(const Vec3& local) const { return turned(local - local_origin_) * scale_; }
-    [[nodiscard]] static Vec3 turned(const Vec3& v) { return {v.x, v.z, -v.y}; }
+    [[nodiscard]] Vec3 position(const Vec3& local) const {
+        return turned(frame_.to_world_size(local - local_origin_)) * frame_.metres_per_unit;
+    }
+    /// Of the model's frame to one of the scene's, not of unit length.
+    [[nodiscard]] Vec3 normal(const Vec3& local) const { return turned(frame_.to_local_size(local)); }
     [[nodiscard]] const Vec3& origin() const { return origin_; }  ///< in true coordinates
 
   private:
+    [[nodiscard]] static Vec3 turned(const Vec3& v) { return {v.x, v.z, -v.y}; }
+
+    const Frame& frame_;
     Vec3 origin_;
     Vec3 local_origin_;
-    double scale_;
 };
 
 /// How values become colours, and what a legend says about it.

@@ -25,9 +25,9 @@ struct Station {
 
 /// Thick enough to see, thin enough to tell neighbours apart.
 double tube_radius(const Model& model) {
-    const Vec3 side = model.domain.extent.size();
+    const Vec3 side = model.frame.to_world_size(model.domain.extent.size());
     const double apart = std::sqrt(side.x * side.y / static_cast<double>(model.boreholes.size()));
-    return std::min(0.005 * model.domain.extent.diagonal(), 0.08 * apart);
+    return std::min(0.005 * length(side), 0.08 * apart);
 }
 
 std::vector<std::vector<std::uint32_t>> samples_of_boreholes(const Model& model) {

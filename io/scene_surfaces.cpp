@@ -36,7 +36,7 @@ class PartBuilder {
 
     /// Normals add up, weighted by area, where triangles of a group share a vertex.
     void add(const Triangle& corners, int group) {
-        const Vec3 normal = SceneFrame::turned(facet_normal(clipped_, corners));
+        const Vec3 normal = frame_.normal(facet_normal(clipped_, corners));
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
             triangle[k] = vertex(corners[k], group);

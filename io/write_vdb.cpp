@@ -83,10 +83,10 @@ class LeafSink final : public TileSink {
     std::vector<std::unique_ptr<Leaf>> leaves_;
 };
 
-/// Index (i,j,k), a voxel's centre, to true or frame-local coordinates.
-openvdb::math::Transform::Ptr make_transform(const Lattice& lattice, const Vec3& shift) {
-    const Vec3 o = lattice.origin + shift;
-    const Vec3& s = lattice.spacing;
+/// Index (i,j,k), a voxel's centre, to true coordinates, or to true lengths from the frame's origin.
+openvdb::math::Transform::Ptr make_transform(const Lattice& lattice, const Frame& frame, bool local_origin) {
+    const Vec3 o = local_origin ? frame.to_world_size(lattice.origin) : frame.to_world(lattice.origin);
+    const Vec3 s = frame.to_world_size(lattice.spacing);
     return openvdb::math::Transform::createLinearTransform(
         openvdb::Mat4R(s.x, 0., 0., 0., 0., s.y, 0., 0., 0., 0., s.z, 0., o.x, o.y, o.z, 1.));
 }
@@ -144,7 +144,8 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     file.close();
     openvdb::initialize();
     const Model& model = view.model;
-    const Lattice lattice = lattice_over(model.domain.extent, resolved_voxel_size(view, options));
+    const Lattice lattice =
+        lattice_over(model.domain.extent, model.frame.to_local_size(resolved_voxel_size(view, options)));
     std::vector<std::string> names;
     for (const Property& property : model.properties) {
         names.push_back(property.name);
@@ -155,7 +156,7 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     for (std::size_t p = 0; p < names.size(); ++p) {
         const auto grid = make_grid(view, p, lattice, options.progress);
         grid->setName(names[p]);
-        grid->setTransform(make_transform(lattice, options.local_origin ? Vec3{} : model.frame.origin));
+        grid->setTransform(make_transform(lattice, model.frame, options.local_origin));
         describe(*grid, model.frame, options.local_origin);
         describe(*grid, model.properties[p]);
         grids.push_back(grid);

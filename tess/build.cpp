@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <sstream>
 #include <unordered_set>
 
 namespace terratet {
@@ -84,6 +86,19 @@ void resolve_resolution(const Site& site, const BuildOptions& options, Model& mo
     model.domain = {extent, extent};
 }
 
+/// Cells as long as the site is wide and as thin as it is high are slivers; in stretched z they are not.
+void suggest_z_scale(const Model& model, BuildReport& report) {
+    const Vec3 size = model.domain.extent.size();
+    const double ratio = std::min(size.x, size.y) / size.z;
+    if (ratio > 10) {
+        std::ostringstream note;
+        note.precision(3);
+        note << "the extent is " << ratio << " times as wide as high; consider --z-scale "
+             << model.frame.z_scale * std::pow(10, std::floor(std::log10(ratio / 2)));
+        report.diagnostics.note(note.str());
+    }
+}
+
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
     model.fault_options = options.faults;
     FaultPreparation preparation = prepare_faults(model.surfaces, model.domain.extent, model.frame,
@@ -110,7 +125,8 @@ std::vector<std::uint32_t> inside_extent(const Model& model, BuildReport& report
 
 DensityResult thin(const Model& model, const std::vector<std::uint32_t>& inside, DensityMode mode,
                    const FaultProximity& proximity) {
-    DensityResult result = edit_density(selected(model.samples, inside), model.criteria.l_min, mode, proximity);
+    DensityResult result = edit_density(selected(model.samples, inside),
+                                        ResolutionField(model.criteria, model.domain, model.faults), mode, proximity);
     for (auto* indices : {&result.kept, &result.near_faults}) {
         for (std::uint32_t& i : *indices) {
             i = inside[i];
@@ -217,6 +233,7 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     canonicalise(site, report);
     static_cast<Site&>(model) = std::move(site);
     resolve_resolution(model, options, model);
+    suggest_z_scale(model, report);
     model.density = options.density;
     model.estimator = options.estimator;
     {

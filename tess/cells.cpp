@@ -49,7 +49,7 @@ class Explainer {
         if (proposal.reason != Reason::none) {
             return proposal.reason;
         }
-        if (vertices().any_within(proposal.point, rule_.l_min())) {
+        if (vertices().any_within(proposal.point, rule_.resolution().l_min(proposal.point))) {
             return proposal.projected ? Reason::near_face : Reason::too_close;
         }
         return Reason::none;
@@ -58,7 +58,7 @@ class Explainer {
   private:
     const PointGrid& vertices() {
         if (!vertices_) {
-            vertices_.emplace(rule_.l_min());
+            vertices_.emplace(rule_.resolution().largest_l_min());
             for (const Vec3& p : mesh_.points) {
                 vertices_->insert(p);
             }

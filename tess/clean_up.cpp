@@ -189,6 +189,7 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severitie
     }
     search_.find(place, start, zone_);
     revalue_(vertex, place);
+    const double l_min = rule_.resolution().l_min(place);
     Severities after;
     for (const Facet& facet : zone_.boundary) {
         std::array<std::pair<std::uint32_t, Vec3>, 4> corners{};
@@ -198,7 +199,7 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severitie
             const auto corner = facet.first->vertex((facet.second + k) & 3);
             finite = finite && !triangulation.is_infinite(corner);
             corners[static_cast<std::size_t>(k)] = {corner->info(), delaunay::from_cgal(corner->point())};
-            if (finite && distance(corners[static_cast<std::size_t>(k)].second, place) < criteria_.l_min) {
+            if (finite && distance(corners[static_cast<std::size_t>(k)].second, place) < l_min) {
                 return false;
             }
         }

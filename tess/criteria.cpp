@@ -23,6 +23,13 @@ void require_limit(double value, double smallest, const std::string& option) {
             option + " is " + std::to_string(value) + "; it must be 0 (off) or at least " + std::to_string(smallest));
 }
 
+void require_resolution(double l_min, double l_max, const std::string& where) {
+    require(std::isfinite(l_min) && l_min > 0, "--lmin must be a positive length" + where);
+    require(std::isfinite(l_max) && l_max > 0, "--lmax must be a positive length" + where);
+    require(l_max >= l_min,
+            "--lmax (" + std::to_string(l_max) + ") is below --lmin (" + std::to_string(l_min) + ")" + where);
+}
+
 }  // namespace
 
 bool Criteria::has_variation() const {
@@ -30,10 +37,12 @@ bool Criteria::has_variation() const {
 }
 
 void validate(const Criteria& criteria) {
-    require(std::isfinite(criteria.l_min) && criteria.l_min > 0, "--lmin must be a positive length");
-    require(std::isfinite(criteria.l_max) && criteria.l_max > 0, "--lmax must be a positive length");
-    require(criteria.l_max >= criteria.l_min,
-            "--lmax (" + std::to_string(criteria.l_max) + ") is below --lmin (" + std::to_string(criteria.l_min) + ")");
+    require_resolution(criteria.l_min, criteria.l_max, "");
+    for (const ResolutionOverride& part : criteria.overrides) {
+        require_resolution(part.l_min, part.l_max, ", also in --resolution");
+        require(part.where == ResolutionOverride::Where::block || part.box.volume() > 0,
+                "--resolution: the box has no volume");
+    }
     require_limit(criteria.radius_edge, 1, "--radius-edge");
     require_limit(criteria.aspect, 3, "--aspect");
     require_limit(criteria.v_min, 0, "--vmin");

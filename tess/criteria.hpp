@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "tess/geometry.hpp"
 #include "tess/property.hpp"
 
 namespace terratet {
@@ -17,6 +18,20 @@ struct VariationLimits {
     friend bool operator==(const VariationLimits&, const VariationLimits&) = default;
 };
 
+/// Another resolution in a part of the ground.
+struct ResolutionOverride {
+    enum class Where {
+        box,    ///< in `box`
+        block,  ///< in the fault block that holds `point`, as far as the extent reaches
+    };
+    Where where = Where::box;
+    Box3 box;
+    Vec3 point;
+    double l_min = 0;
+    double l_max = 0;
+    friend bool operator==(const ResolutionOverride&, const ResolutionOverride&) = default;
+};
+
 /// Lengths are in the frame's unit, volumes in its cube. 0 switches a criterion off, except l_min and l_max.
 struct Criteria {
     double l_min = 0;         ///< no inserted vertex comes nearer than this to another; density of the samples
@@ -26,14 +41,16 @@ struct Criteria {
     double v_min = 0;         ///< clean-up only: insertion can never enlarge a cell
     double v_max = 0;         ///< largest volume
     double dihedral_deg = 5;  ///< clean-up only: smallest dihedral angle
-    std::vector<VariationLimits> variation;  ///< one per property of the model; empty: none
+    std::vector<VariationLimits> variation;     ///< one per property of the model; empty: none
+    std::vector<ResolutionOverride> overrides;  ///< of l_min and l_max; where they overlap, the last one counts
 
     [[nodiscard]] bool has_variation() const;  ///< some df_min or df_max is in force
     friend bool operator==(const Criteria&, const Criteria&) = default;
 };
 
 /// Throws UsageError when the numbers contradict each other: l_min or l_max not positive, l_max < l_min, a limit
-/// negative or not finite, radius_edge below 1, aspect below 3, df_min above df_max.
+/// negative or not finite, radius_edge below 1, aspect below 3, df_min above df_max; likewise in an override, or a box
+/// without volume.
 void validate(const Criteria& criteria);
 
 }  // namespace terratet

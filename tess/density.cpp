@@ -16,10 +16,10 @@ using Edge = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared lengt
 
 /// Greedy thinning in the order given.
 std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vector<std::uint32_t>& order,
-                                         PointGrid& kept, double l_min) {
+                                         PointGrid& kept, const ResolutionField& resolution) {
     std::vector<std::uint32_t> result;
     for (const std::uint32_t i : order) {
-        if (!kept.any_within(samples.positions[i], l_min)) {
+        if (!kept.any_within(samples.positions[i], resolution.l_min(samples.positions[i]))) {
             kept.insert(samples.positions[i]);
             result.push_back(i);
         }
@@ -32,10 +32,13 @@ std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vect
 /// edge: the shortest is common to both.
 class DynamicDeletion {
   public:
-    DynamicDeletion(const Samples& samples, const std::vector<std::uint32_t>& candidates, double l_min)
-        : samples_(samples), limit_(l_min * l_min), handles_(samples.size()) {
+    DynamicDeletion(const Samples& samples, const std::vector<std::uint32_t>& candidates,
+                    const ResolutionField& resolution)
+        : samples_(samples), limits_(samples.size()), handles_(samples.size()) {
         std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
         for (const std::uint32_t i : candidates) {
+            const double l_min = resolution.l_min(samples.positions[i]);
+            limits_[i] = l_min * l_min;
             points.emplace_back(delaunay::to_cgal(samples.positions[i]), i);
         }
         triangulation_.insert(points.begin(), points.end());
@@ -80,7 +83,7 @@ class DynamicDeletion {
 
     void queue_edges_of(std::uint32_t i) {
         for (const std::uint32_t j : neighbours(i)) {
-            if (const Edge e = edge(i, j); std::get<0>(e) < limit_) {
+            if (const Edge e = edge(i, j); std::get<0>(e) < std::min(limits_[i], limits_[j])) {
                 short_edges_.insert(e);
             }
         }
@@ -109,7 +112,7 @@ class DynamicDeletion {
     }
 
     const Samples& samples_;
-    double limit_;
+    std::vector<double> limits_;  ///< l_min² by sample
     delaunay::Triangulation triangulation_;
     std::vector<delaunay::VertexHandle> handles_;  ///< by sample; none once removed
     std::set<Edge> short_edges_;
@@ -117,24 +120,32 @@ class DynamicDeletion {
 
 }  // namespace
 
-DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults) {
+DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
+                           const FaultProximity& faults) {
     DensityResult result;
     std::vector<std::uint32_t> candidates;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
         (faults.protecting_fault(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
     }
-    PointGrid kept(l_min);
+    PointGrid kept(resolution.largest_l_min());
     if (mode == DensityMode::paper) {
-        result.kept = DynamicDeletion(samples, candidates, l_min).run();
+        result.kept = DynamicDeletion(samples, candidates, resolution).run();
         for (const std::uint32_t i : result.kept) {
             kept.insert(samples.positions[i]);
         }
     }
-    const auto added = keep_in_order(samples, candidates, kept, l_min);
+    const auto added = keep_in_order(samples, candidates, kept, resolution);
     result.kept.insert(result.kept.end(), added.begin(), added.end());
     std::ranges::sort(result.kept);
     result.deleted = candidates.size() - result.kept.size();
     return result;
+}
+
+DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults) {
+    Criteria criteria;
+    criteria.l_min = l_min;
+    const Domain nowhere;  // only overrides ask for it
+    return edit_density(samples, ResolutionField(criteria, nowhere, {}), mode, faults);
 }
 
 }  // namespace terratet

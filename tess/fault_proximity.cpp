@@ -57,6 +57,7 @@ struct Sheet {
 }  // namespace
 
 struct FaultProximity::Impl {
+    std::span<const Fault> faults;
     std::vector<std::unique_ptr<const Sheet>> sheets;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
@@ -64,6 +65,7 @@ struct FaultProximity::Impl {
 };
 
 FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_unique<Impl>()) {
+    impl_->faults = faults;
     std::vector<TriangleCorners> triangles;
     std::vector<double> reach;
     for (const Fault& fault : faults) {
@@ -84,6 +86,10 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
 FaultProximity::~FaultProximity() = default;
 FaultProximity::FaultProximity(FaultProximity&&) noexcept = default;
 FaultProximity& FaultProximity::operator=(FaultProximity&&) noexcept = default;
+
+std::span<const Fault> FaultProximity::faults() const {
+    return impl_->faults;
+}
 
 bool FaultProximity::empty() const {
     return impl_->sheets.empty();

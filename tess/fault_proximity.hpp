@@ -16,11 +16,13 @@ namespace terratet {
 
 class FaultProximity {
   public:
+    /// \pre The faults outlive this.
     explicit FaultProximity(std::span<const Fault> faults);
     ~FaultProximity();
     FaultProximity(FaultProximity&&) noexcept;
     FaultProximity& operator=(FaultProximity&&) noexcept;
 
+    [[nodiscard]] std::span<const Fault> faults() const;
     [[nodiscard]] bool empty() const;
 
     /// The first fault (smallest index) whose sheet or margin is nearer to p than its protection radius; −1 when none.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/frame.hpp"
 
+#include <cmath>
+
 namespace terratet {
 
 namespace {
@@ -18,6 +20,19 @@ double choose_axis_origin(double lo, double hi) {
 }
 
 }  // namespace
+
+/// Dividing a product need not give back the factor, but the factor is one of the quotient's neighbours; likewise
+/// behind the addition of the origin.
+double Frame::world_z(double local) const {
+    const double quotient = local / z_scale;
+    for (const double offset : {quotient, std::nextafter(quotient, -HUGE_VAL), std::nextafter(quotient, HUGE_VAL)}) {
+        const double world = origin.z + offset;
+        if (z_scale * (world - origin.z) == local) {
+            return world;
+        }
+    }
+    return origin.z + quotient;
+}
 
 Vec3 choose_origin(const Box3& world_extent) {
     Vec3 origin;

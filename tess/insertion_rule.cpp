@@ -31,6 +31,7 @@ InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, con
       domain_(domain),
       frame_(frame),
       faults_(faults),
+      resolution_(criteria, domain, faults.faults()),
       properties_(properties),
       values_(values),
       has_variation_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_max > 0; })),
@@ -45,7 +46,7 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
         shortest = std::min(shortest, d);
         longest = std::max(longest, d);
     }
-    double worst = std::sqrt(longest) / criteria_.l_max;
+    double worst = std::sqrt(longest) / resolution_.l_max(p);
     const Circumsphere& sphere = cell.sphere;
     if (criteria_.radius_edge > 0) {
         worst = std::max(worst, std::sqrt(sphere.squared_radius / shortest) / criteria_.radius_edge);
@@ -116,7 +117,7 @@ double InsertionRule::violation_in_force(const JudgedCell& cell) const {
 }
 
 bool InsertionRule::near_face(const Vec3& point) const {
-    const double margin = criteria_.l_min / 2;
+    const double margin = resolution_.l_min(point) / 2;
     for (int axis = 0; axis < 3; ++axis) {
         if (point[axis] < domain_.hull.lo[axis] + margin || point[axis] > domain_.hull.hi[axis] - margin) {
             return true;
@@ -133,12 +134,8 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
         proposal.reason = Reason::no_center;
         return proposal;
     }
-    if (proposal.radius < criteria_.l_min) {  // the nearest vertex is at exactly R: the guard costs nothing
-        proposal.reason = Reason::too_close;
-        return proposal;
-    }
     proposal.point = sphere.center;
-    const double margin = criteria_.l_min / 2;
+    const double margin = resolution_.l_min(proposal.point) / 2;
     for (int axis = 0; axis < 3; ++axis) {
         double& x = proposal.point[axis];
         if (x < domain_.hull.lo[axis] + margin) {
@@ -148,6 +145,10 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
             x = domain_.hull.hi[axis];
             proposal.projected = true;
         }
+    }
+    if (proposal.radius < resolution_.l_min(proposal.point)) {  // the nearest vertex is at exactly R
+        proposal.reason = Reason::too_close;
+        return proposal;
     }
     proposal.point = frame_.snapped(proposal.point);
     if (!faults_.empty() && faults_.protecting_fault(proposal.point) >= 0) {

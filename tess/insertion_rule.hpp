@@ -16,6 +16,7 @@
 #include "tess/property.hpp"
 #include "tess/quality.hpp"
 #include "tess/refine.hpp"
+#include "tess/resolution.hpp"
 
 namespace terratet {
 
@@ -56,7 +57,7 @@ class InsertionRule {
     /// Rules 2 and 3 for a point near a circumcentre (rule 4): in the box but not on it, outside the faults' zones.
     [[nodiscard]] bool allows(const Vec3& point) const;
 
-    [[nodiscard]] double l_min() const { return criteria_.l_min; }
+    [[nodiscard]] const ResolutionField& resolution() const { return resolution_; }
 
   private:
     [[nodiscard]] double shape_violation(const JudgedCell& cell) const;
@@ -67,6 +68,7 @@ class InsertionRule {
     const Domain& domain_;
     const Frame& frame_;
     const FaultProximity& faults_;
+    ResolutionField resolution_;
     std::span<const Property> properties_;
     const VertexValues& values_;
     bool has_variation_;

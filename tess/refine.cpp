@@ -42,10 +42,10 @@ class Refiner {
           options_(options),
           values_at_once_(criteria.has_variation()),
           property_count_(properties.size()),
-          smallest_squared_radius_(criteria.l_min * criteria.l_min),
+          smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
           has_faults_(!faults.empty()),
           first_new_(kernel_.vertices.size()) {
-        report_.bound = packing_bound(domain.hull, criteria.l_min);
+        report_.bound = rule_.resolution().packing_bound();
     }
 
     RefineReport run() {
@@ -128,7 +128,8 @@ class Refiner {
     /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
     bool find_zone(const Vec3& point, Cell start, Zone& zone) {
         search_.find(point, start, zone);
-        const double limit = rule_.l_min() * rule_.l_min();
+        const double l_min = rule_.resolution().l_min(point);
+        const double limit = l_min * l_min;
         for (const Facet& facet : zone.boundary) {
             for (int k = 1; k < 4; ++k) {
                 const auto vertex = facet.first->vertex((facet.second + k) & 3);
@@ -344,15 +345,6 @@ std::string to_string(Reason reason) {
             return "fault_gap";
     }
     return "unknown";
-}
-
-double packing_bound(const Box3& hull, double l_min) {
-    // |Ω ⊕ B(l/2)| for a box (Steiner's formula), against the volume a point of a densest packing takes: l³/√2.
-    const Vec3 a = hull.size();
-    const double r = l_min / 2;
-    const double swollen = a.x * a.y * a.z + 2 * r * (a.x * a.y + a.y * a.z + a.z * a.x) +
-                           std::numbers::pi * r * r * (a.x + a.y + a.z) + 4.0 / 3 * std::numbers::pi * r * r * r;
-    return std::ceil(std::numbers::sqrt2 * swollen / (l_min * l_min * l_min));
 }
 
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,

@@ -6,7 +6,8 @@
 /// the criteria or carries the reason why not. Always Delaunay.
 ///
 /// Guarantees
-///  R1  Inserted vertices never exceed packing_bound(), and refinement terminates.
+/// l_min and l_max are those in force where they are asked for (resolution.hpp).
+///  R1  Inserted vertices never exceed the packing bound, and refinement terminates.
 ///  R2  Each cell outside the gaps meets every insertion criterion or carries a reason code.
 ///  R3  No inserted vertex is nearer than l_min to any other vertex.
 ///  R4  With l_max ≥ 4 l_min no edge exceeds l_max in cells that are not exempt as smooth and whose circumcentre lies
@@ -28,6 +29,7 @@
 #include "tess/frame.hpp"
 #include "tess/progress.hpp"
 #include "tess/property.hpp"
+#include "tess/resolution.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
 
@@ -67,9 +69,6 @@ struct VertexValues {
     std::vector<std::vector<double>> values;  ///< [property][vertex], measured units
     std::vector<double> extrapolation;        ///< 0…1
 };
-
-/// √2·|Ω ⊕ l_min/2| / l_min³: no more points at mutual distance l_min fit into the box (Kepler).
-double packing_bound(const Box3& hull, double l_min);
 
 /// Refines in place and appends the new vertices' values. Values come at once where a variation criterion needs them,
 /// otherwise in one batch at the end. About 100 k insertions a second on one core.

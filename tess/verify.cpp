@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "tess/cells.hpp"
@@ -48,14 +49,16 @@ class Sweep {
 
     [[nodiscard]] bool contains(const Vec3& p) const { return std::ranges::binary_search(points_, p); }
 
-    /// Number of points nearer to p than r, p itself included when it is one of them.
-    [[nodiscard]] std::size_t within(const Vec3& p, double r) const {
-        std::size_t count = 0;
+    /// Does the question hold for a point nearer to p than r? p itself is asked as well when it is one of them.
+    template <class Question>
+    [[nodiscard]] bool any_of(const Vec3& p, double r, const Question& question) const {
         const Vec3 from{p.x - r, -max_coordinate * 10, -max_coordinate * 10};
         for (auto q = std::ranges::lower_bound(points_, from); q != points_.end() && q->x <= p.x + r; ++q) {
-            count += squared_distance(*q, p) < r * r ? 1 : 0;
+            if (squared_distance(*q, p) < r * r && question(*q)) {
+                return true;
+            }
         }
-        return count;
+        return false;
     }
 
   private:
@@ -81,8 +84,9 @@ bool in_protection_zone(const Model& model, const Vec3& p) {
 
 class Verifier {
   public:
-    explicit Verifier(const Model& model)
+    Verifier(const Model& model, const ValueSource& source)
         : model_(model),
+          source_(source),
           tessellation_(tessellate(model)),
           mesh_(tessellation_.mesh()),
           table_(describe_cells(model, mesh_)) {
@@ -106,7 +110,6 @@ class Verifier {
     }
 
   private:
-    [[nodiscard]] double l_min() const { return model_.criteria.l_min; }
     [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.points[v]; }
     [[nodiscard]] CellPoints corners(std::size_t c) const {
         const auto& v = mesh_.cells[c];
@@ -117,7 +120,10 @@ class Verifier {
         Offenders offenders;
         const Sweep kept(kept_);
         for (const Vec3& p : kept_) {
-            if (kept.within(p, l_min()) > 1) {
+            const double l_min = resolution_.l_min(p);
+            if (kept.any_of(p, l_min, [&](const Vec3& q) {
+                    return p != q && squared_distance(p, q) < std::pow(std::min(l_min, resolution_.l_min(q)), 2);
+                })) {
                 offenders.add("sample at " + show(model_, p));
             }
         }
@@ -134,7 +140,8 @@ class Verifier {
                 continue;
             }
             ++dropped;
-            if (kept.within(p, l_min()) == 0 && !in_protection_zone(model_, p)) {
+            const auto any = [](const Vec3&) { return true; };
+            if (!kept.any_of(p, resolution_.l_min(p), any) && !in_protection_zone(model_, p)) {
                 offenders.add("sample at " + show(model_, p));
             }
         }
@@ -174,7 +181,7 @@ class Verifier {
 
     Verdict r1() {
         const auto inserted = std::ranges::count(model_.vertices, Role::inserted, &Vertex::role);
-        const double bound = packing_bound(model_.domain.hull, l_min());
+        const double bound = resolution_.packing_bound();
         Offenders offenders;
         if (static_cast<double>(inserted) > bound) {
             offenders.add(std::to_string(inserted) + " inserted");
@@ -192,7 +199,7 @@ class Verifier {
         const bool shape = (limits.radius_edge == 0 || q.radius_edge <= limits.radius_edge * slack) &&
                            (limits.aspect == 0 || q.aspect <= limits.aspect * slack) &&
                            (limits.v_max == 0 || q.volume <= limits.v_max * slack) &&
-                           q.longest_edge <= limits.l_max * slack;
+                           q.longest_edge <= resolution_.l_max(corners(c)) * slack;
         return shape && meets_variation(c);
     }
 
@@ -221,8 +228,9 @@ class Verifier {
             }
             const bool good = meets_criteria(c);
             excused += good ? 0 : 1;
-            const bool wrong_reason = table_.reason[c] == Reason::too_close &&
-                                      cell_quality(corners(c)).circumradius > l_min() * (1 + 1e-9) + 1e-6;
+            const bool wrong_reason =
+                table_.reason[c] == Reason::too_close &&
+                cell_quality(corners(c)).circumradius > resolution_.largest_l_min() * (1 + 1e-9) + 1e-6;
             if ((!good && table_.reason[c] == Reason::none) || wrong_reason) {
                 offenders.add("cell at " + show(model_, corners(c)[0]));
             }
@@ -232,47 +240,58 @@ class Verifier {
             std::to_string(excused) + " of " + std::to_string(mesh_.cells.size()) + " cells carry a reason");
     }
 
-    /// A vertex' nearest neighbour is one of its Delaunay neighbours (R5), so edges tell all.
     Verdict r3() {
         Offenders offenders;
-        double shortest = std::numeric_limits<double>::infinity();
-        for (const auto& cell : mesh_.cells) {
-            for (const auto& [i, j] : cell_edges) {
-                const bool inserted =
-                    model_.vertices[cell[i]].role == Role::inserted || model_.vertices[cell[j]].role == Role::inserted;
-                const double d = inserted ? squared_distance(point(cell[i]), point(cell[j]))
-                                          : std::numeric_limits<double>::infinity();
-                shortest = std::min(shortest, d);
-                if (d < l_min() * l_min()) {
-                    offenders.add("edge at " + show(model_, point(cell[i])));
-                }
+        std::vector<Vec3> places;
+        std::map<Vec3, Role> roles;
+        for (const Vertex& vertex : model_.vertices) {
+            places.push_back(vertex.position);
+            roles[vertex.position] = vertex.role;
+        }
+        const Sweep all(std::move(places));
+        std::size_t inserted = 0;
+        for (const Vertex& vertex : model_.vertices) {
+            if (vertex.role != Role::inserted) {
+                continue;
+            }
+            ++inserted;
+            const Vec3& p = vertex.position;
+            const double l_min = resolution_.l_min(p);
+            const bool crowded = all.any_of(p, l_min, [&](const Vec3& q) {
+                const double needed = roles[q] == Role::inserted ? std::min(l_min, resolution_.l_min(q)) : l_min;
+                return q != p && squared_distance(p, q) < needed * needed;
+            });
+            if (crowded) {
+                offenders.add("vertex at " + show(model_, p));
             }
         }
-        std::ostringstream figures;
-        figures << "shortest such edge " << std::sqrt(shortest) << ", lmin " << l_min();
-        return offenders.verdict("R3", "no inserted vertex is nearer than lmin to another", figures.str());
+        return offenders.verdict("R3", "no inserted vertex is nearer than lmin to another",
+                                 std::to_string(inserted) + " inserted vertices");
     }
 
     Verdict r4() {
         Offenders offenders;
-        const bool promised = model_.criteria.l_max >= 4 * l_min();
         double longest = 0;
-        for (std::size_t c = 0; promised && c < mesh_.cells.size(); ++c) {
+        std::size_t promised = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
             const Circumsphere sphere = circumsphere(corners(c));
             const CellQuality q = cell_quality(corners(c));
-            if (table_.fault[c] >= 0 || table_.reason[c] == Reason::smooth ||
-                !model_.domain.extent.contains(sphere.center) || proximity_.protecting_fault(sphere.center) >= 0) {
+            const double l_max = resolution_.l_max(corners(c));
+            if (l_max < 4 * resolution_.l_min(sphere.center) || table_.fault[c] >= 0 ||
+                table_.reason[c] == Reason::smooth || !model_.domain.extent.contains(sphere.center) ||
+                proximity_.protecting_fault(sphere.center) >= 0) {
                 continue;
             }
+            ++promised;
             longest = std::max(longest, q.longest_edge);
-            if (q.longest_edge > model_.criteria.l_max * (1 + 1e-9)) {
+            if (q.longest_edge > l_max * (1 + 1e-9)) {
                 offenders.add("edge of " + std::to_string(q.longest_edge) + " at " + show(model_, corners(c)[0]));
             }
         }
         std::ostringstream figures;
-        figures << "longest edge " << longest << ", lmax " << model_.criteria.l_max;
+        figures << "longest edge " << longest << " in " << promised << " cells, lmax " << model_.criteria.l_max;
         return offenders.verdict("R4", "no edge above lmax away from faults and box",
-                                 promised ? figures.str() : "not promised: lmax is below 4 lmin");
+                                 promised > 0 ? figures.str() : "not promised: lmax is below 4 lmin");
     }
 
     Verdict r5() {
@@ -293,9 +312,9 @@ class Verifier {
         };
         // Whether a move would be accepted can depend on values at the new place, which only the estimator knows.
         RefineOptions options;
-        options.clean_up = !model_.criteria.has_variation();
+        options.clean_up = source_ || !model_.criteria.has_variation();
         const RefineReport report = refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria,
-                                           model_.properties, none, options);
+                                           model_.properties, source_ ? source_ : none, options);
         if (report.inserted + report.moved + report.removed > 0) {
             offenders.add(std::to_string(report.inserted) + " vertices would be inserted, " +
                           std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");
@@ -322,7 +341,9 @@ class Verifier {
     }
 
     const Model& model_;
+    const ValueSource& source_;
     FaultProximity proximity_{model_.faults};
+    ResolutionField resolution_{model_.criteria, model_.domain, model_.faults};
     Tessellation tessellation_;
     TetMesh mesh_;
     CellTable table_;
@@ -331,8 +352,8 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Verdict> verify(const Model& model, const Progress& progress) {
-    return Verifier(model).run(progress);
+std::vector<Verdict> verify(const Model& model, const ValueSource& source, const Progress& progress) {
+    return Verifier(model, source).run(progress);
 }
 
 }  // namespace terratet

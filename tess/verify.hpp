@@ -10,6 +10,7 @@
 
 #include "tess/model.hpp"
 #include "tess/progress.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 
@@ -21,6 +22,8 @@ struct Verdict {
 };
 
 /// D1, D2, V1, F1, R1 to R5, R7 and total volume = hull box volume. (D3 and R6 speak of two runs; tests hold them.)
-std::vector<Verdict> verify(const Model& model, const Progress& progress = {});
+/// With the model's own estimator as `source`, R7 tries the moves of the clean-up as well where a variation criterion
+/// is in force; without, it says that it did not.
+std::vector<Verdict> verify(const Model& model, const ValueSource& source = {}, const Progress& progress = {});
 
 }  // namespace terratet

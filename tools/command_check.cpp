@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "interp/model_source.hpp"
 #include "io/model_store.hpp"
 #include "tess/error.hpp"
 #include "tess/verify.hpp"
@@ -51,10 +52,12 @@ class Check final : public Command {
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
         const Model model = load_model(paths_.front());
+        const FaultProximity faults(model.faults);
+        const ValueSource source = make_model_source(model, faults, parse_estimator(model.estimator));
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verify(model, display.callback());
+            verdicts = verify(model, source, display.callback());
         }
         std::fputs((json_ ? as_json(verdicts) : as_lines(verdicts)).c_str(), stdout);
         if (std::fflush(stdout) != 0) {

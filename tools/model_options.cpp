@@ -3,6 +3,7 @@
 #include "tools/model_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -32,30 +33,72 @@ double positive_length(const std::string& option, const std::string& text, doubl
     return value;
 }
 
-/// True coordinates of two corners.
-Box3 parse_extent(const std::string& text) {
-    std::vector<double> numbers;
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(text.substr(begin, end - begin));
-        if (!number) {
-            throw UsageError(fmt::format("--extent: '{}' is not a number", text.substr(begin, end - begin)));
-        }
-        numbers.push_back(*number);
+        const std::size_t end = std::min(text.find(separator, begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
         begin = end + 1;
     }
+    return parts;
+}
+
+std::vector<double> parse_coordinates(const std::string& option, const std::string& text) {
+    std::vector<double> numbers;
+    for (const std::string& part : split(text, ',')) {
+        const auto number = parse_number(part);
+        if (!number) {
+            throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
+        }
+        if (!(std::abs(*number) <= max_coordinate)) {
+            throw UsageError(fmt::format("{}: a coordinate is beyond {}", option, short_number(max_coordinate)));
+        }
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+Box3 box_of(const std::string& option, const std::string& text, const std::vector<double>& n) {
+    const Box3 box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    if (!(box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z)) {
+        throw UsageError(
+            fmt::format("{}: '{}' has no volume; the order is xmin,ymin,zmin,xmax,ymax,zmax", option, text));
+    }
+    return box;
+}
+
+/// True coordinates of two corners.
+Box3 parse_extent(const std::string& text) {
+    const auto numbers = parse_coordinates("--extent", text);
     if (numbers.size() != 6) {
         throw UsageError(fmt::format(
             "--extent: six numbers are needed, xmin,ymin,zmin,xmax,ymax,zmax, and {} are given", numbers.size()));
     }
-    const Box3 box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-    if (!is_acceptable(box.lo) || !is_acceptable(box.hi)) {
-        throw UsageError(fmt::format("--extent: a coordinate is beyond {}", short_number(max_coordinate)));
+    return box_of("--extent", text, numbers);
+}
+
+/// "xmin,…,zmax=LMIN,LMAX" or "x,y,z=LMIN,LMAX", in true coordinates.
+ResolutionOverride parse_resolution(const std::string& text, double metres_per_unit) {
+    const auto equals = text.find('=');
+    const auto lengths = equals == std::string::npos ? std::vector<std::string>() : split(text.substr(equals + 1), ',');
+    const std::string where = text.substr(0, equals);
+    const auto numbers = lengths.size() == 2 ? parse_coordinates("--resolution", where) : std::vector<double>();
+    if (numbers.size() != 6 && numbers.size() != 3) {
+        throw UsageError(
+            fmt::format("--resolution: '{}' is neither xmin,ymin,zmin,xmax,ymax,zmax=LMIN,LMAX for a box nor "
+                        "x,y,z=LMIN,LMAX for the fault block that holds a point",
+                        text));
     }
-    if (!(box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z)) {
-        throw UsageError(fmt::format("--extent: '{}' has no volume; the order is xmin,ymin,zmin,xmax,ymax,zmax", text));
+    ResolutionOverride part;
+    if (numbers.size() == 6) {
+        part.box = box_of("--resolution", where, numbers);
+    } else {
+        part.where = ResolutionOverride::Where::block;
+        part.point = {numbers[0], numbers[1], numbers[2]};
     }
-    return box;
+    part.l_min = positive_length("--resolution", lengths[0], metres_per_unit);
+    part.l_max = positive_length("--resolution", lengths[1], metres_per_unit);
+    return part;
 }
 
 struct PropertyLimit {
@@ -102,6 +145,9 @@ Criteria criteria_without_variation(const ModelArguments& a, double metres_per_u
     criteria.dihedral_deg = a.dihedral_deg;
     criteria.v_min = a.v_min;
     criteria.v_max = a.v_max;
+    for (const auto& text : a.resolution) {
+        criteria.overrides.push_back(parse_resolution(text, metres_per_unit));
+    }
     return criteria;
 }
 
@@ -132,6 +178,10 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "no new vertex comes nearer to another; by default a hundredth of the diagonal",
               &a.l_min},
              {{"lmax"}, "LENGTH", "longest edge; by default four times --lmin", &a.l_max},
+             {{"resolution"},
+              "WHERE=LMIN,LMAX",
+              "others in a part: xmin,ymin,zmin,xmax,ymax,zmax=5,20 in a box, x,y,z=5,20 in the fault block of a point",
+              &a.resolution},
              {{"df-min"},
               "P=V",
               "cells in which property P varies less are left as they are (decades if P:log10)",
@@ -214,6 +264,10 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     }
     options.pad = a.pad.empty() ? -1 : parse_length(a.pad, unit);
     options.criteria = criteria_without_variation(a, unit);
+    for (ResolutionOverride& part : options.criteria.overrides) {
+        part.box = {site.frame.to_local(part.box.lo), site.frame.to_local(part.box.hi)};
+        part.point = site.frame.to_local(part.point);
+    }
     set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
     validate_given(options.criteria);

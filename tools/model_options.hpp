@@ -19,6 +19,7 @@ struct ModelArguments {
     std::string pad;
     std::string l_min;
     std::string l_max;
+    std::vector<std::string> resolution;
     std::vector<std::string> df_min;
     std::vector<std::string> df_max;
     double radius_edge = Criteria{}.radius_edge;

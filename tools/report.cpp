@@ -158,7 +158,8 @@ std::string report_text(const RunRecord& record) {
     }
     report["frame"] = {{"crs", frame.crs_name.empty() ? "local" : frame.crs_name},
                        {"unit", frame.unit},
-                       {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}}};
+                       {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}},
+                       {"z_scale", frame.z_scale}};
     if (record.build != nullptr) {
         const BuildRecord& build = *record.build;
         Json defaults = Json::object();

@@ -91,6 +91,10 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               &a.dip_convention},
              {{"azimuth"}, "FROM", "grid (default), true, or magnetic:DECLINATION", &a.azimuth},
              {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
+             {{"z-scale"},
+              "K",
+              "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged. Default 1",
+              &a.z_scale},
              {{"layer"}, "NAME", "layer of a single input", &a.layer},
              {{"where"}, "SQL", "which rows of a single input", &a.where},
              {{"sql"}, "SQL", "a statement instead of a layer, for a single input", &a.sql},
@@ -160,6 +164,10 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
         parse_length("1" + a.depth_unit, 1.0);
     }
     inputs.depth_unit = a.depth_unit;
+    if (!(a.z_scale >= 1e-3 && a.z_scale <= 1e3)) {
+        throw UsageError(fmt::format("--z-scale: {} is not between 0.001 and 1000", a.z_scale));
+    }
+    inputs.z_scale = a.z_scale;
     inputs.strict = strict;
     return inputs;
 }

@@ -27,6 +27,7 @@ struct SiteArguments {
     std::string dip_convention = "auto";
     std::string azimuth = "grid";
     std::string depth_unit;
+    double z_scale = 1;
     std::string layer;
     std::string where;
     std::string sql;

@@ -87,7 +87,8 @@ CGAL::Epick::Point_3 exact(const Vec3& p) {
 TEST_CASE("R1: inserted vertices never exceed the packing bound, and refinement terminates") {
     for_each_world([](const Case& c) {
         REQUIRE(static_cast<double>(c.report.refine.inserted) <= c.report.refine.bound);
-        REQUIRE(c.report.refine.bound == packing_bound(c.model.domain.hull, c.model.criteria.l_min));
+        REQUIRE(c.report.refine.bound ==
+                ResolutionField(c.model.criteria, c.model.domain, c.model.faults).packing_bound());
         REQUIRE(static_cast<std::uint64_t>(std::ranges::count(c.model.vertices, Role::inserted, &Vertex::role)) ==
                 c.report.refine.inserted - c.report.refine.removed);
     });

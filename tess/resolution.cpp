@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/resolution.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "tess/cells.hpp"
+#include "tess/error.hpp"
+#include "tess/mesh_walk.hpp"
+#include "tess/model.hpp"
+
+namespace terratet {
+
+namespace {
+
+using Where = ResolutionOverride::Where;
+
+/// What the faults alone divide the extent into: the corners of the hull box and the seeds.
+Model bare_blocks(const Domain& domain, std::span<const Fault> faults) {
+    Model model;
+    model.domain = domain;
+    model.criteria.l_min = domain.hull.diagonal();
+    model.criteria.l_max = domain.hull.diagonal();
+    model.faults.assign(faults.begin(), faults.end());
+    const auto add = [&](const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
+        model.vertices.push_back({model.vertices.size(), position, role, owner, side});
+    };
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const auto pick = [&](int axis) {
+            return (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? domain.hull.hi[axis] : domain.hull.lo[axis];
+        };
+        add({pick(0), pick(1), pick(2)}, Role::domain, -1, 0);
+    }
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Seed& seed : faults[f].seeds) {
+            if (domain.hull.contains(seed.position)) {
+                add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
+            }
+        }
+    }
+    return model;
+}
+
+bool touch(const Box3& a, const Box3& b) {
+    return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+           b.lo.z <= a.hi.z;
+}
+
+}  // namespace
+
+struct ResolutionField::Blocks {
+    TetMesh mesh;
+    std::vector<std::int32_t> block;  ///< by cell
+    mutable MeshWalk walk{mesh};
+    std::vector<std::int32_t> of_override;  ///< block that each override names; −1: none
+
+    Blocks(const Domain& domain, std::span<const Fault> faults) {
+        const Model model = bare_blocks(domain, faults);
+        mesh = tessellate(model).mesh();
+        block = describe_cells(model, mesh).region;
+    }
+
+    /// −1 in a gap and outside the extent.
+    [[nodiscard]] std::int32_t at(const Vec3& place) const {
+        const auto position = walk.locate(place);
+        return position ? block[position->cell] : -1;
+    }
+};
+
+ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults)
+    : criteria_(criteria), domain_(domain) {
+    const auto names_block = [](const ResolutionOverride& part) { return part.where == Where::block; };
+    if (std::ranges::none_of(criteria.overrides, names_block)) {
+        return;
+    }
+    blocks_ = std::make_unique<Blocks>(domain, faults);
+    for (const ResolutionOverride& part : criteria.overrides) {
+        blocks_->of_override.push_back(names_block(part) ? blocks_->at(part.point) : -1);
+        if (names_block(part) && blocks_->of_override.back() < 0) {
+            throw UsageError(
+                "--resolution: the point that names a fault block lies in none: it is outside the extent, "
+                "or on a fault");
+        }
+    }
+}
+
+ResolutionField::~ResolutionField() = default;
+ResolutionField::ResolutionField(ResolutionField&&) noexcept = default;
+
+double ResolutionField::l_min_by_part(const Vec3& place) const {
+    const std::int32_t block = blocks_ ? blocks_->at(place) : -1;
+    for (std::size_t i = criteria_.overrides.size(); i-- > 0;) {
+        const ResolutionOverride& part = criteria_.overrides[i];
+        if (part.where == Where::box ? part.box.contains(place) : block >= 0 && blocks_->of_override[i] == block) {
+            return part.l_min;
+        }
+    }
+    return criteria_.l_min;
+}
+
+double ResolutionField::l_max_by_part(const CellPoints& cell) const {
+    const Box3 box = bounding_box(cell);
+    const std::int32_t block = blocks_ ? blocks_->at(0.25 * (cell[0] + cell[1] + cell[2] + cell[3])) : -1;
+    double finest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = criteria_.overrides.size(); i-- > 0;) {
+        const ResolutionOverride& part = criteria_.overrides[i];
+        const bool in_part = part.where == Where::block && block >= 0 && blocks_->of_override[i] == block;
+        if (in_part || (part.where == Where::box && touch(part.box, box))) {
+            finest = std::min(finest, part.l_max);
+        }
+        if (in_part || (part.where == Where::box && part.box.contains(box.lo) && part.box.contains(box.hi))) {
+            return finest;  // what lies below this part is covered by it
+        }
+    }
+    return std::min(finest, criteria_.l_max);
+}
+
+double ResolutionField::smallest_l_min() const {
+    double smallest = criteria_.l_min;
+    for (const ResolutionOverride& part : criteria_.overrides) {
+        smallest = std::min(smallest, part.l_min);
+    }
+    return smallest;
+}
+
+double ResolutionField::largest_l_min() const {
+    double largest = criteria_.l_min;
+    for (const ResolutionOverride& part : criteria_.overrides) {
+        largest = std::max(largest, part.l_min);
+    }
+    return largest;
+}
+
+double ResolutionField::packing_bound() const {
+    double bound = terratet::packing_bound(domain_.hull, criteria_.l_min);
+    for (const ResolutionOverride& part : criteria_.overrides) {
+        Box3 box = domain_.hull;
+        for (int axis = 0; axis < 3 && part.where == Where::box; ++axis) {
+            box.lo[axis] = std::clamp(part.box.lo[axis], domain_.hull.lo[axis], domain_.hull.hi[axis]);
+            box.hi[axis] = std::clamp(part.box.hi[axis], domain_.hull.lo[axis], domain_.hull.hi[axis]);
+        }
+        bound += terratet::packing_bound(box, part.l_min);
+    }
+    return bound;
+}
+
+double packing_bound(const Box3& hull, double l_min) {
+    // |Ω ⊕ B(l/2)| for a box (Steiner's formula), against the volume a point of a densest packing takes: l³/√2.
+    const Vec3 a = hull.size();
+    const double r = l_min / 2;
+    const double swollen = a.x * a.y * a.z + 2 * r * (a.x * a.y + a.y * a.z + a.z * a.x) +
+                           std::numbers::pi * r * r * (a.x + a.y + a.z) + 4.0 / 3 * std::numbers::pi * r * r * r;
+    return std::ceil(std::numbers::sqrt2 * swollen / (l_min * l_min * l_min));
+}
+
+}  // namespace terratet

@@ -15,7 +15,6 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(nanoflann REQUIRED IMPORTED_TARGET GLOBAL nanoflann>=1.4)
 
 # OpenVDB ships a find module, beside its library.
 find_path(TERRATET_OPENVDB_MODULE FindOpenVDB.cmake

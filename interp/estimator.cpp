@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "interp/estimator_catalogue.hpp"
 #include "interp/idw.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "interp/nearest.hpp"
@@ -15,49 +16,6 @@
 namespace terratet {
 namespace {
 
-struct Option {
-    std::string name;
-    std::string default_value;  ///< empty: none
-    std::string wanted;         ///< what a value must be, for messages
-    bool (*valid)(double);
-};
-
-struct Method {
-    std::string name;
-    std::vector<Option> options;  ///< in the order they are written
-};
-
-const std::vector<Method>& methods() {
-    static const std::vector<Method> all = {
-        {"nearest", {}},
-        {"idw",
-         {{"power", "2", "a number from 0 to 100", [](double v) { return v >= 0 && v <= 100; }},
-          {"radius", "", "a positive length", [](double v) { return v > 0; }},
-          {"max_points", "12", "a whole number from 1 to 100000",
-           [](double v) { return v >= 1 && v <= 100'000 && v == std::floor(v); }}}},
-        {"natural", {}},
-    };
-    return all;
-}
-
-template <typename Items>
-std::string listed(const Items& items) {
-    std::string text;
-    for (const auto& item : items) {
-        text += (text.empty() ? "" : ", ") + item.name;
-    }
-    return text;
-}
-
-const Method& method_named(const std::string& name) {
-    const auto found =
-        std::find_if(methods().begin(), methods().end(), [&](const Method& method) { return method.name == name; });
-    if (found == methods().end()) {
-        throw UsageError("estimator '" + name + "' is not known; there are " + listed(methods()));
-    }
-    return *found;
-}
-
 std::optional<double> number(const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -65,19 +23,32 @@ std::optional<double> number(const std::string& text) {
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-void add_option(EstimatorSpec& spec, const Method& method, const std::string& part) {
+bool valid(const EstimatorOption& option, const std::string& value) {
+    if (!option.words.empty()) {
+        return std::find(option.words.begin(), option.words.end(), value) != option.words.end();
+    }
+    const auto parsed = number(value);
+    return parsed && *parsed >= option.lowest && *parsed <= option.highest &&
+           (!option.above || *parsed > option.lowest) && (!option.whole || *parsed == std::floor(*parsed));
+}
+
+void add_option(EstimatorSpec& spec, const EstimatorMethod& method, const std::string& part) {
     const auto equals = part.find('=');
     const std::string key = part.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
     const auto option = std::find_if(method.options.begin(), method.options.end(),
-                                     [&](const Option& candidate) { return candidate.name == key; });
+                                     [&](const EstimatorOption& candidate) { return candidate.name == key; });
     if (option == method.options.end()) {
+        std::string known;
+        for (const auto& candidate : method.options) {
+            known += (known.empty() ? "" : ", ") + candidate.name;
+        }
         throw UsageError("estimator '" + method.name + "' has no option '" + key + "'; it has " +
-                         (method.options.empty() ? "none" : listed(method.options)));
+                         (known.empty() ? "none" : known));
     }
-    const auto parsed = number(value);
-    if (!parsed || !option->valid(*parsed)) {
-        throw UsageError("estimator '" + method.name + "': " + key + "='" + value + "' is not " + option->wanted);
+    if (option->flag ? equals != std::string::npos : !valid(*option, value)) {
+        throw UsageError("estimator '" + method.name + "': " +
+                         (option->flag ? key + " takes no value" : key + "='" + value + "' is not " + wanted(*option)));
     }
     if (!spec.options.emplace(key, value).second) {
         throw UsageError("estimator '" + method.name + "': " + key + " is given twice");
@@ -89,23 +60,40 @@ double value_of(const EstimatorSpec& spec, const std::string& key, double otherw
     return found == spec.options.end() ? otherwise : number(found->second).value_or(otherwise);
 }
 
-IdwOptions idw_options(const EstimatorSpec& spec) {
-    IdwOptions options;
-    options.power = value_of(spec, "power", options.power);
-    options.radius = value_of(spec, "radius", options.radius);
-    options.max_points =
-        static_cast<std::size_t>(value_of(spec, "max_points", static_cast<double>(options.max_points)));
-    return options;
+/// The number of an option as given, else its default.
+double value_of(const EstimatorSpec& spec, const std::string& key) {
+    for (const auto& option : estimator_method(spec.name).options) {
+        if (option.name == key) {
+            return value_of(spec, key, number(option.default_value).value_or(0));
+        }
+    }
+    return 0;
+}
+
+Neighbourhood neighbourhood_of(const EstimatorSpec& spec) {
+    return {static_cast<std::size_t>(value_of(spec, "max_points")),
+            value_of(spec, "radius", std::numeric_limits<double>::infinity()),
+            static_cast<std::uint32_t>(value_of(spec, "per_octant")),
+            static_cast<std::uint32_t>(value_of(spec, "per_borehole"))};
+}
+
+Anisotropy anisotropy_of(const EstimatorSpec& spec) {
+    return {value_of(spec, "azimuth"), value_of(spec, "dip"), value_of(spec, "roll"), value_of(spec, "ratio2"),
+            value_of(spec, "ratio3")};
 }
 
 }  // namespace
 
 std::string EstimatorSpec::to_string() const {
     std::string text = name;
-    for (const auto& option : method_named(name).options) {
+    for (const auto& option : estimator_method(name).options) {
         const auto given = options.find(option.name);
+        if (option.flag) {
+            text += given == options.end() ? "" : ":" + option.name;
+            continue;
+        }
         const std::string& value = given == options.end() ? option.default_value : given->second;
-        if (!value.empty()) {
+        if (!value.empty() && !(option.implied && given == options.end())) {
             text += ":" + option.name + "=" + value;
         }
     }
@@ -115,7 +103,7 @@ std::string EstimatorSpec::to_string() const {
 EstimatorSpec parse_estimator(const std::string& text) {
     EstimatorSpec spec;
     spec.name = text.substr(0, text.find(':'));
-    const Method& method = method_named(spec.name);
+    const EstimatorMethod& method = estimator_method(spec.name);
     for (std::size_t at = spec.name.size(); at < text.size();) {
         const std::size_t end = std::min(text.find(':', at + 1), text.size());
         add_option(spec, method, text.substr(at + 1, end - at - 1));
@@ -125,13 +113,15 @@ EstimatorSpec parse_estimator(const std::string& text) {
 }
 
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
-                                          const FaultProximity* faults, std::vector<std::int32_t> /*boreholes*/) {
-    const Method& method = method_named(spec.name);
-    if (method.name == "nearest") {
-        return std::make_unique<Nearest>(std::move(sites), faults);
+                                          const FaultProximity* faults, std::vector<std::int32_t> boreholes) {
+    const std::string& name = estimator_method(spec.name).name;
+    if (name == "nearest") {
+        return std::make_unique<Nearest>(std::move(sites), faults, anisotropy_of(spec));
     }
-    if (method.name == "idw") {
-        return std::make_unique<InverseDistance>(std::move(sites), faults, idw_options(spec));
+    if (name == "idw") {
+        return std::make_unique<InverseDistance>(
+            std::move(sites), faults, IdwOptions{value_of(spec, "power"), neighbourhood_of(spec), anisotropy_of(spec)},
+            std::move(boreholes));
     }
     return std::make_unique<NaturalNeighbour>(std::move(sites), faults);
 }

@@ -18,7 +18,8 @@ void weigh(const std::vector<NearSite>& near, double power, std::vector<SiteWeig
     }
     double sum = 0;
     for (const auto& [squared_distance, site] : near) {
-        const double weight = std::pow(nearest / squared_distance, power / 2);
+        const double ratio = nearest / squared_distance;
+        const double weight = power == 2 ? ratio : std::pow(ratio, power / 2);
         terms.push_back({site, weight});
         sum += weight;
     }
@@ -29,14 +30,15 @@ void weigh(const std::vector<NearSite>& near, double power, std::vector<SiteWeig
 
 }  // namespace
 
-InverseDistance::InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options)
-    : sites_(std::move(sites)), index_(sites_, faults), options_(options) {}
+InverseDistance::InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options,
+                                 std::span<const std::int32_t> boreholes)
+    : sites_(std::move(sites)), index_(sites_, faults, options.anisotropy, boreholes), options_(options) {}
 
 void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
-            index_.nearest(queries[i], options_.max_points, near, options_.radius);
+            index_.neighbourhood(queries[i], options_.neighbourhood, near);
             out[i].terms.clear();
             out[i].extrapolation = 0;
             out[i].fallback = false;

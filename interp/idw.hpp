@@ -5,9 +5,6 @@
 /// Inverse distance weighting (Shepard 1968) over the nearest visible sites: wᵢ ∝ 1 / dᵢ^power. On a site, that site
 /// alone. The extrapolation is 0 everywhere: the method knows no inside. O(max_points log n).
 
-#include <cstddef>
-#include <limits>
-
 #include "interp/estimator.hpp"
 #include "interp/site_index.hpp"
 
@@ -15,13 +12,14 @@ namespace terratet {
 
 struct IdwOptions {
     double power = 2;
-    double radius = std::numeric_limits<double>::infinity();  ///< sites farther away do not count; none left: no value
-    std::size_t max_points = 12;
+    Neighbourhood neighbourhood{};
+    Anisotropy anisotropy{};
 };
 
 class InverseDistance final : public Estimator {
   public:
-    InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options);
+    InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options,
+                    std::span<const std::int32_t> boreholes = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
 

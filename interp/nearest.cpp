@@ -6,17 +6,19 @@
 
 namespace terratet {
 
-Nearest::Nearest(std::vector<Vec3> sites, const FaultProximity* faults)
-    : sites_(std::move(sites)), index_(sites_, faults) {}
+Nearest::Nearest(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy)
+    : sites_(std::move(sites)), index_(sites_, faults, anisotropy) {}
 
 void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index_.nearest(queries[i], 1, near);
-            out[i] = {};
+            out[i].terms.clear();
+            out[i].extrapolation = 0;
+            out[i].fallback = false;
             if (!near.empty()) {
-                out[i].terms = {{near.front().site, 1.0}};
+                out[i].terms.push_back({near.front().site, 1.0});
             }
         }
     });

@@ -11,7 +11,7 @@ namespace terratet {
 
 class Nearest final : public Estimator {
   public:
-    Nearest(std::vector<Vec3> sites, const FaultProximity* faults);
+    Nearest(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
 

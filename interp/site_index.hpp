@@ -2,30 +2,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The sites nearest to a place that can be seen from it: a kd-tree (nanoflann) and the faults as walls.
+/// The sites nearest to a place that can be seen from it: a kd-tree, distances that may be anisotropic, and the faults
+/// as walls.
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "interp/anisotropy.hpp"
+#include "interp/site_tree.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
 
-struct NearSite {
-    double squared_distance;
-    std::uint32_t site;
-};
-
 class SiteIndex {
   public:
-    /// \param sites   must outlive the index
-    /// \param faults  walls; must outlive the index; may be null
-    SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults);
-    ~SiteIndex();
+    /// \param sites      must outlive the index
+    /// \param faults     walls; must outlive the index; may be null
+    /// \param boreholes  of each site, for Neighbourhood::per_borehole; empty: none
+    SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {},
+              std::span<const std::int32_t> boreholes = {});
 
     /// No fault's sheet between the query and the site?
     [[nodiscard]] bool visible(const ValueQuery& query, std::uint32_t site) const;
@@ -36,13 +34,19 @@ class SiteIndex {
     void nearest(const ValueQuery& query, std::size_t count, std::vector<NearSite>& out,
                  double radius = std::numeric_limits<double>::infinity()) const;
 
+    /// The same under all the limits of a neighbourhood. Octants are those of the anisotropy's axes.
+    void neighbourhood(const ValueQuery& query, const Neighbourhood& limits, std::vector<NearSite>& out) const;
+
+    /// Distances are those in these coordinates.
+    [[nodiscard]] const Metric& metric() const { return metric_; }
+
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
-    struct Tree;
     std::span<const Vec3> sites_;
     const FaultProximity* faults_;
-    std::unique_ptr<Tree> tree_;
+    Metric metric_;
+    SiteTree tree_;
 };
 
 }  // namespace terratet

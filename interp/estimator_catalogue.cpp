@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/estimator_catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "tess/error.hpp"
+
+namespace terratet {
+namespace {
+
+using Options = std::vector<EstimatorOption>;
+
+Options operator+(Options a, const Options& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+Options neighbourhood(const std::string& max_points) {
+    return {{.name = "radius",
+             .default_value = "",
+             .unit = "length",
+             .help = "samples farther away do not count; none nearer: no value",
+             .lowest = 0,
+             .above = true},
+            {.name = "max_points",
+             .default_value = max_points,
+             .unit = "",
+             .help = "how many of the nearest visible samples count",
+             .lowest = 1,
+             .highest = 100'000,
+             .whole = true}};
+}
+
+Options shares(const std::string& per_octant, const std::string& per_borehole) {
+    return {{.name = "per_octant",
+             .default_value = per_octant,
+             .unit = "",
+             .help = "at most so many in each of the eight octants around the place; 0: any",
+             .lowest = 0,
+             .highest = 100'000,
+             .whole = true,
+             .implied = true},
+            {.name = "per_borehole",
+             .default_value = per_borehole,
+             .unit = "",
+             .help = "at most so many of one borehole; 0: any",
+             .lowest = 0,
+             .highest = 100'000,
+             .whole = true,
+             .implied = true}};
+}
+
+Options anisotropy(const std::string& ratio3) {
+    const auto ratio = [](const char* name, const std::string& value, const char* help) {
+        return EstimatorOption{.name = name,
+                               .default_value = value,
+                               .unit = "",
+                               .help = help,
+                               .lowest = 0,
+                               .above = true,
+                               .implied = true};
+    };
+    const auto angle = [](const char* name, const char* help) {
+        return EstimatorOption{.name = name,
+                               .default_value = "0",
+                               .unit = "degrees",
+                               .help = help,
+                               .lowest = -360,
+                               .highest = 360,
+                               .implied = true};
+    };
+    return {
+        angle("azimuth", "of the first axis of anisotropy, clockwise from grid north"),
+        angle("dip", "of the first axis, down from the horizontal"),
+        angle("roll", "of the second axis, about the first; 0: horizontal"),
+        ratio("ratio2", "1", "range along the second axis over that along the first"),
+        ratio("ratio3", ratio3, "range along the third axis, the vertical unless turned, over that along the first")};
+}
+
+std::string shown(double number) {
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+}  // namespace
+
+const std::vector<EstimatorMethod>& estimator_catalogue() {
+    static const std::vector<EstimatorMethod> all = {
+        {"natural", "natural neighbour (Sibson): smooth, adapts to the samples' density, nothing to tune", {}},
+        {"idw", "inverse distance over the nearest samples",
+         Options{{.name = "power",
+                  .default_value = "2",
+                  .unit = "",
+                  .help = "weights fall with distance to this power",
+                  .lowest = 0,
+                  .highest = 100}} +
+             neighbourhood("12") + shares("0", "0") + anisotropy("1")},
+        {"nearest", "the value of the nearest sample that no fault hides", anisotropy("1")},
+    };
+    return all;
+}
+
+const EstimatorMethod& estimator_method(const std::string& name) {
+    const auto& all = estimator_catalogue();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const EstimatorMethod& method) { return method.name == name; });
+    if (found == all.end()) {
+        std::string known;
+        for (const auto& method : all) {
+            known += (known.empty() ? "" : ", ") + method.name;
+        }
+        throw UsageError("estimator '" + name + "' is not known; there are " + known);
+    }
+    return *found;
+}
+
+std::string wanted(const EstimatorOption& option) {
+    if (!option.words.empty()) {
+        std::string list;
+        for (const auto& word : option.words) {
+            list += (list.empty() ? "" : ", ") + word;
+        }
+        return "one of " + list;
+    }
+    const EstimatorOption any;
+    const std::string noun = option.whole ? "a whole number" : "a number";
+    if (option.lowest == any.lowest) {
+        return noun;
+    }
+    if (option.highest == any.highest) {
+        return noun + (option.above ? " above " : " from ") + shown(option.lowest);
+    }
+    return noun + " from " + shown(option.lowest) + " to " + shown(option.highest);
+}
+
+}  // namespace terratet

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/site_tree.hpp"
+
+#include <cassert>
+#include <numeric>
+
+namespace terratet {
+namespace {
+
+constexpr std::size_t leaf_size = 8;
+
+}  // namespace
+
+SiteTree::SiteTree(std::span<const Vec3> points, std::span<const std::int32_t> boreholes) : original_(points.size()) {
+    assert(!points.empty() && (boreholes.empty() || boreholes.size() == points.size()));
+    std::iota(original_.begin(), original_.end(), 0U);
+    nodes_.reserve(points.size() / 2 + 1);
+    build(original_, 0, points, boreholes);
+    nodes_.shrink_to_fit();
+    points_.reserve(points.size());
+    for (const std::uint32_t i : original_) {
+        points_.push_back(points[i]);
+    }
+    if (!boreholes.empty()) {
+        boreholes_.reserve(points.size());
+        for (const std::uint32_t i : original_) {
+            boreholes_.push_back(boreholes[i]);
+        }
+    }
+}
+
+std::uint32_t SiteTree::build(std::span<std::uint32_t> order, std::uint32_t begin, std::span<const Vec3> points,
+                              std::span<const std::int32_t> boreholes) {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    Node node{{}, begin, begin + static_cast<std::uint32_t>(order.size()), 0, -1};
+    for (const std::uint32_t i : order) {
+        node.box.extend(points[i]);
+    }
+    if (!boreholes.empty()) {
+        const std::int32_t first = boreholes[order.front()];
+        const bool same = std::all_of(order.begin(), order.end(), [&](auto i) { return boreholes[i] == first; });
+        node.borehole = same ? first : -1;
+    }
+    nodes_.push_back(node);
+    if (order.size() <= leaf_size) {
+        return index;
+    }
+    const Vec3 size = node.box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t half = order.size() / 2;
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis]
+                                                                   : points[a] < points[b];
+                     });
+    build(order.first(half), begin, points, boreholes);
+    nodes_[index].right = build(order.subspan(half), begin + static_cast<std::uint32_t>(half), points, boreholes);
+    return index;
+}
+
+bool SiteTree::later(const Candidate& a, const Candidate& b) const {
+    if (a.squared_distance != b.squared_distance) {
+        return a.squared_distance > b.squared_distance;
+    }
+    if (a.is_point != b.is_point) {
+        return a.is_point;
+    }
+    return a.is_point ? points_[b.index] < points_[a.index] : a.index > b.index;
+}
+
+namespace {
+
+struct NearerFirst {
+    std::span<const Vec3> points;
+
+    bool operator()(const NearSite& a, const NearSite& b) const {
+        return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
+                                                        : points[a.site] < points[b.site];
+    }
+};
+
+/// The first `capacity` by distance, then by coordinates.
+class NearestPoints {
+  public:
+    NearestPoints(std::span<const Vec3> points, std::size_t capacity, double squared_radius,
+                  std::vector<NearSite>& heap)
+        : order_{points}, capacity_(capacity), worst_(squared_radius), heap_(heap) {
+        heap_.clear();
+    }
+
+    /// No farther point is wanted. Equal ones may be.
+    [[nodiscard]] double worst() const { return worst_; }
+
+    void offer(double squared_distance, std::uint32_t point) {
+        const NearSite candidate{squared_distance, point};
+        if (heap_.size() == capacity_) {
+            if (!order_(candidate, heap_.front())) {
+                return;
+            }
+            std::pop_heap(heap_.begin(), heap_.end(), order_);
+            heap_.back() = candidate;
+        } else {
+            heap_.push_back(candidate);
+        }
+        std::push_heap(heap_.begin(), heap_.end(), order_);
+        if (heap_.size() == capacity_) {
+            worst_ = heap_.front().squared_distance;
+        }
+    }
+
+    void sort() { std::sort_heap(heap_.begin(), heap_.end(), order_); }
+
+  private:
+    NearerFirst order_;
+    std::size_t capacity_;
+    double worst_;
+    std::vector<NearSite>& heap_;
+};
+
+}  // namespace
+
+void SiteTree::nearest(const Vec3& query, std::size_t count, double radius, std::vector<NearSite>& out) const {
+    NearestPoints found(points_, count, radius * radius, out);
+    struct Branch {
+        double squared_distance;
+        std::uint32_t node;
+    };
+    std::array<Branch, 64> stack;  // as deep as the tree of 2^32 points, twice over
+    std::size_t depth = 0;
+    stack[depth++] = {squared_distance_to(nodes_[0].box, query), 0};
+    while (depth > 0) {
+        const Branch branch = stack[--depth];
+        std::uint32_t at = branch.node;
+        if (branch.squared_distance > found.worst()) {
+            continue;
+        }
+        while (nodes_[at].right != 0) {  // down the nearer side
+            Branch near{squared_distance_to(nodes_[at + 1].box, query), at + 1};
+            Branch far{squared_distance_to(nodes_[nodes_[at].right].box, query), nodes_[at].right};
+            if (far.squared_distance < near.squared_distance) {
+                std::swap(near, far);
+            }
+            if (far.squared_distance <= found.worst()) {
+                stack[depth++] = far;
+            }
+            at = near.node;
+        }
+        for (std::uint32_t point = nodes_[at].begin; point < nodes_[at].end; ++point) {
+            const double d = squared_distance(points_[point], query);
+            if (d <= found.worst()) {
+                found.offer(d, point);
+            }
+        }
+    }
+    found.sort();
+    for (auto& near : out) {
+        near.site = original_[near.site];
+    }
+}
+
+std::size_t SiteTree::memory_bytes() const {
+    return nodes_.capacity() * sizeof(Node) + points_.capacity() * sizeof(Vec3) +
+           original_.capacity() * sizeof(std::uint32_t) + boreholes_.capacity() * sizeof(std::int32_t);
+}
+
+}  // namespace terratet

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// A static kd-tree for neighbourhood searches with limits. Off-the-shelf trees find the k nearest, but cannot pass
+/// over whole branches whose octant or borehole has given all it may: with a sample every metre along holes a hundred
+/// metres apart, that is the difference between fifty steps and five thousand. Private to this floor.
+///
+/// Points lie in leaf order, box and borehole in each node's cache line. About 60 bytes a point.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+struct NearSite {
+    double squared_distance;
+    std::uint32_t site;
+};
+
+/// Which sites make a neighbourhood: nearest first, those within the radius, unless the octant around the query or the
+/// borehole they are in has given its share already, up to max_points. 0: no limit.
+struct Neighbourhood {
+    std::size_t max_points = 12;
+    double radius = std::numeric_limits<double>::infinity();
+    std::uint32_t per_octant = 0;
+    std::uint32_t per_borehole = 0;
+};
+
+class SiteTree {
+  public:
+    /// \param points     any number, at least one, distinct, finite
+    /// \param boreholes  of each point, −1 for none; empty: none at all
+    explicit SiteTree(std::span<const Vec3> points, std::span<const std::int32_t> boreholes = {});
+
+    /// The `count` nearest within `radius`, nearest first, ties by coordinates: the same places in any order of points.
+    /// O(count log n).
+    void nearest(const Vec3& query, std::size_t count, double radius, std::vector<NearSite>& out) const;
+
+    /// A neighbourhood of those points that `usable(index)` accepts, in the same order. The limits are tested first.
+    template <class Usable>
+    void neighbourhood(const Vec3& query, const Neighbourhood& limits, const Usable& usable,
+                       std::vector<NearSite>& out) const;
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+  private:
+    struct Node {
+        Box3 box;
+        std::uint32_t begin;    ///< of its points
+        std::uint32_t end;      ///< behind them
+        std::uint32_t right;    ///< child; the left one follows its parent; 0: a leaf
+        std::int32_t borehole;  ///< of all its points, or −1
+    };
+    static_assert(sizeof(Node) == 64);
+
+    /// What is still to be looked at, by distance: nodes before points, points by coordinates.
+    struct Candidate {
+        double squared_distance;
+        std::uint32_t index;  ///< of a node, or of a point in leaf order
+        bool is_point;
+    };
+
+    std::uint32_t build(std::span<std::uint32_t> order, std::uint32_t begin, std::span<const Vec3> points,
+                        std::span<const std::int32_t> boreholes);
+    [[nodiscard]] bool later(const Candidate& a, const Candidate& b) const;
+
+    static double squared_distance_to(const Box3& box, const Vec3& q) {
+        double sum = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double gap = std::max({box.lo[axis] - q[axis], 0.0, q[axis] - box.hi[axis]});
+            sum += gap * gap;
+        }
+        return sum;
+    }
+
+    std::vector<Node> nodes_;
+    std::vector<Vec3> points_;             ///< in leaf order
+    std::vector<std::uint32_t> original_;  ///< the caller's number
+    std::vector<std::int32_t> boreholes_;  ///< in leaf order; empty: none
+};
+
+/// Counts what octants and boreholes have given to one neighbourhood.
+class Shares {
+  public:
+    Shares(const Vec3& query, const Neighbourhood& limits) : query_(query), limits_(limits) {}
+
+    /// Has this octant or borehole given all it may?
+    [[nodiscard]] bool exhausted(int octant, std::int32_t borehole) const {
+        if (limits_.per_octant > 0 && octant >= 0 && octants_[static_cast<std::size_t>(octant)] >= limits_.per_octant) {
+            return true;
+        }
+        if (limits_.per_borehole == 0 || borehole < 0) {
+            return false;
+        }
+        const auto found = find(borehole);
+        return found != holes_.end() && found->second >= limits_.per_borehole;
+    }
+
+    void take(int octant, std::int32_t borehole) {
+        ++octants_[static_cast<std::size_t>(octant)];
+        if (limits_.per_borehole > 0 && borehole >= 0) {
+            const auto found = find(borehole);
+            if (found == holes_.end()) {
+                holes_.emplace_back(borehole, 1);
+            } else {
+                ++holes_[static_cast<std::size_t>(found - holes_.begin())].second;
+            }
+        }
+    }
+
+    [[nodiscard]] int octant_of(const Vec3& p) const {
+        return (p.x >= query_.x ? 1 : 0) + (p.y >= query_.y ? 2 : 0) + (p.z >= query_.z ? 4 : 0);
+    }
+
+    /// −1 for a box in several.
+    [[nodiscard]] int octant_of(const Box3& box) const {
+        const int octant = octant_of(box.lo);
+        return octant == octant_of(box.hi) ? octant : -1;
+    }
+
+  private:
+    using Holes = std::vector<std::pair<std::int32_t, std::uint32_t>>;
+    [[nodiscard]] Holes::const_iterator find(std::int32_t borehole) const {
+        return std::find_if(holes_.begin(), holes_.end(), [&](const auto& hole) { return hole.first == borehole; });
+    }
+
+    Vec3 query_;
+    const Neighbourhood& limits_;
+    std::array<std::uint32_t, 8> octants_{};
+    Holes holes_;  ///< few: a list is fast
+};
+
+template <class Usable>
+void SiteTree::neighbourhood(const Vec3& query, const Neighbourhood& limits, const Usable& usable,
+                             std::vector<NearSite>& out) const {
+    out.clear();
+    const double squared_radius = limits.radius * limits.radius;
+    thread_local std::vector<Candidate> queue;
+    const auto order = [this](const Candidate& a, const Candidate& b) { return later(a, b); };
+    const auto push = [&](const Candidate& candidate) {
+        if (candidate.squared_distance <= squared_radius) {
+            queue.push_back(candidate);
+            std::push_heap(queue.begin(), queue.end(), order);
+        }
+    };
+    const auto borehole_of = [&](std::uint32_t point) { return boreholes_.empty() ? -1 : boreholes_[point]; };
+    Shares shares(query, limits);
+    queue.clear();
+    push({squared_distance_to(nodes_[0].box, query), 0, false});
+    while (!queue.empty() && out.size() < limits.max_points) {
+        const Candidate candidate = queue.front();
+        std::pop_heap(queue.begin(), queue.end(), order);
+        queue.pop_back();
+        if (candidate.is_point) {
+            const std::uint32_t point = candidate.index;
+            const int octant = shares.octant_of(points_[point]);
+            if (!shares.exhausted(octant, borehole_of(point)) && usable(original_[point])) {
+                shares.take(octant, borehole_of(point));
+                out.push_back({candidate.squared_distance, original_[point]});
+            }
+            continue;
+        }
+        const Node& node = nodes_[candidate.index];
+        if (shares.exhausted(shares.octant_of(node.box), node.borehole)) {
+            continue;
+        }
+        if (node.right != 0) {
+            for (const std::uint32_t child : {candidate.index + 1, node.right}) {
+                push({squared_distance_to(nodes_[child].box, query), child, false});
+            }
+            continue;
+        }
+        for (std::uint32_t point = node.begin; point < node.end; ++point) {
+            push({squared_distance(points_[point], query), point, true});
+        }
+    }
+}
+
+}  // namespace terratet

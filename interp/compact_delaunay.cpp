@@ -98,6 +98,7 @@ void CompactDelaunay::copy_tessellation() {
     }
 
     cells_.resize(ordered.size());
+    parts_.resize(ordered.size());
     tbb::parallel_for(std::size_t(0), ordered.size(), [&](std::size_t i) {
         const auto from = ordered[i].second;
         Cell& cell = cells_[i];
@@ -108,6 +109,13 @@ void CompactDelaunay::copy_tessellation() {
         const auto sphere = certified_circumsphere(corners(from), relative_center_error);
         cell.center = sphere.center;
         cell.squared_radius = sphere.certified ? sphere.squared_radius : std::numeric_limits<double>::quiet_NaN();
+    });
+    tbb::parallel_for(std::size_t(0), ordered.size(), [&](std::size_t i) {
+        const auto split_of = [&](std::size_t k) {
+            return cells_[static_cast<std::size_t>(split(static_cast<std::int32_t>(i), k))].center;
+        };
+        parts_[i].of_vertex = cell_parts<Vec3, double>(corners(ordered[i].second), cells_[i].center,
+                                                       {split_of(0), split_of(1), split_of(2), split_of(3)});
     });
 }
 
@@ -201,7 +209,7 @@ bool CompactDelaunay::in_conflict_exact(const Cell& cell, const Vec3& q) const {
 
 std::size_t CompactDelaunay::memory_bytes() const {
     return sizeof(*this) + points_.capacity() * sizeof(Vec3) + cells_.capacity() * sizeof(Cell) +
-           starts_.capacity() * sizeof(std::int32_t);
+           parts_.capacity() * sizeof(Parts) + starts_.capacity() * sizeof(std::int32_t);
 }
 
 }  // namespace terratet

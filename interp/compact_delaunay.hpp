@@ -16,12 +16,10 @@
 #include <span>
 #include <vector>
 
+#include "interp/stolen_volumes.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
-
-/// Facet k of a cell lies opposite vertex k; seen from inside, (a, b, c) = facet_corners[k] have det(a, b, c) > 0.
-inline constexpr int facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 class CompactDelaunay {
   public:
@@ -32,6 +30,11 @@ class CompactDelaunay {
         double squared_radius;                  ///< from that centre to vertex 0; NaN where the error is larger
     };
     static_assert(sizeof(Cell) == 64);
+
+    /// What the cell gives to its vertices' Voronoi cells (cell_parts of stolen_volumes.hpp, split by split()).
+    struct alignas(32) Parts {
+        std::array<double, 4> of_vertex;
+    };
 
     static constexpr std::int32_t ghost_count = 8;
     static constexpr double relative_center_error = 1e-11;
@@ -48,6 +51,14 @@ class CompactDelaunay {
     /// The sites, then the ghosts.
     [[nodiscard]] std::span<const Vec3> points() const { return points_; }
     [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
+    [[nodiscard]] std::span<const Parts> parts() const { return parts_; }
+    /// Where the parts of two neighbours meet: the cell whose centre it is, the one with the smaller number, which is
+    /// on the axis of their facet to within the centres' error, however needle-like the facet. \param k  the facet's
+    /// number in `cell`
+    [[nodiscard]] std::int32_t split(std::int32_t cell, std::size_t k) const {
+        const std::int32_t other = cells_[static_cast<std::size_t>(cell)].neighbour[k];
+        return other >= 0 && other < cell ? other : cell;
+    }
     [[nodiscard]] std::int32_t site_count() const { return static_cast<std::int32_t>(points_.size()) - ghost_count; }
     [[nodiscard]] bool is_ghost(std::int32_t vertex) const { return vertex >= site_count(); }
 
@@ -87,6 +98,7 @@ class CompactDelaunay {
     Box3 cube_;
     std::vector<Vec3> points_;
     std::vector<Cell> cells_;
+    std::vector<Parts> parts_;  ///< of each cell
 
     Box3 bins_box_;
     std::array<std::int32_t, 3> bins_{};

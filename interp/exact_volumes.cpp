@@ -37,22 +37,41 @@ ExactVector exact(const Vec3& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
+/// The circle's centre as split: independent of rounded centres.
+ExactVector split(const ExactVector& a, const ExactVector& b, const ExactVector& c) {
+    return a + circle_center<ExactVector, Number>(b - a, c - a);
+}
+
 }  // namespace
 
 void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, std::vector<double>& shares) {
-    std::vector<ExactVector> points;
-    for (const std::int32_t v : cavity.vertices) {
-        points.push_back(exact(mesh.points()[static_cast<std::size_t>(v)]) - exact(q));
+    std::vector<Number> volumes(cavity.vertices.size(), Number(0));
+    const auto point = [&](std::int32_t v) { return exact(mesh.points()[static_cast<std::size_t>(v)]) - exact(q); };
+    for (const std::int32_t id : cavity.cells) {
+        const auto& vertex = mesh.cells()[static_cast<std::size_t>(id)].vertex;
+        const std::array<ExactVector, 4> p = {point(vertex[0]), point(vertex[1]), point(vertex[2]), point(vertex[3])};
+        const ExactVector center =
+            p[0] + BoundaryFacet<ExactVector, Number>(p[1] - p[0], p[2] - p[0], p[3] - p[0]).center;
+        std::array<ExactVector, 4> splits;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto corner = [&](std::size_t i) { return p[static_cast<std::size_t>(facet_corners[k][i])]; };
+            splits[k] = split(corner(0), corner(1), corner(2));
+        }
+        const auto parts = cell_parts<ExactVector, Number>(p, center, splits);
+        for (std::size_t k = 0; k < 4; ++k) {
+            volumes[cavity.number(vertex[k])] += parts[k];
+        }
     }
-    std::vector<ExactVector> centers;
-    for (const auto& cell : cavity.cells) {
-        const auto p = [&](std::size_t k) { return points[static_cast<std::size_t>(cell.vertex[k])]; };
-        const ExactVector a = p(1) - p(0), b = p(2) - p(0), c = p(3) - p(0);
-        centers.push_back(p(0) + BoundaryFacet<ExactVector, Number>(a, b, c, dot(a, a), dot(b, b), dot(c, c)).center);
+    for (const auto& facet : cavity.facets) {
+        const auto local = [&](std::size_t k) { return static_cast<std::size_t>(facet.vertex[k]); };
+        const auto p = [&](std::size_t k) { return point(cavity.vertices[local(k)]); };
+        const std::array<ExactVector, 3> corners = {p(0), p(1), p(2)};
+        const auto more = BoundaryFacet<ExactVector, Number>(corners[0], corners[1], corners[2])
+                              .sibson(split(corners[0], corners[1], corners[2]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            volumes[local(k)] += more[k];
+        }
     }
-    std::vector<Number> squared(points.size());
-    std::vector<Number> volumes(points.size());
-    stolen_volumes<ExactVector, Number>(cavity.cells, points, centers, squared, volumes);
 
     // Volumes are not negative, so rounding each before the sum costs no digits, where an exact sum would cost far more
     // than all the rest: its denominator is the product of theirs.

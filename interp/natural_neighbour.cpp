@@ -7,10 +7,10 @@
 
 #include "interp/cavity.hpp"
 #include "interp/exact_volumes.hpp"
+#include "interp/facet_block.hpp"
 #include "interp/morton.hpp"
 #include "interp/query_order.hpp"
 #include "interp/site_index.hpp"
-#include "interp/stolen_volumes.hpp"
 
 namespace terratet {
 namespace {
@@ -30,7 +30,7 @@ std::vector<Vec3> permuted(const std::vector<Vec3>& places, const std::vector<st
 /// What one thread needs, kept from query to query.
 struct Workspace {
     Cavity cavity;
-    std::vector<double> squared;
+    FacetBlock block;
     std::vector<double> shares;  ///< one per vertex of the cavity
     std::vector<NearSite> near;
 };
@@ -47,10 +47,33 @@ bool acceptable(const Workspace& work, double radius) {
     return length(mean) <= position_tolerance * radius;
 }
 
-bool shares_in_doubles(Workspace& work, double radius) {
-    work.squared.resize(work.cavity.points.size());
-    work.shares.resize(work.cavity.points.size());
-    stolen_volumes<Vec3, double>(work.cavity.cells, work.cavity.points, work.cavity.centers, work.squared, work.shares);
+bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, Workspace& work, double radius) {
+    const Cavity& cavity = work.cavity;
+    work.shares.assign(cavity.points.size(), 0.0);
+    for (const std::int32_t id : cavity.cells) {
+        const auto& vertex = mesh.cells()[static_cast<std::size_t>(id)].vertex;
+        const auto& parts = mesh.parts()[static_cast<std::size_t>(id)].of_vertex;
+        for (std::size_t k = 0; k < 4; ++k) {
+            work.shares[cavity.number(vertex[k])] += parts[k];
+        }
+    }
+    for (std::size_t begin = 0; begin < cavity.facets.size(); begin += FacetBlock::lanes) {
+        const std::size_t count = std::min(FacetBlock::lanes, cavity.facets.size() - begin);
+        const auto corner = [&](std::size_t lane, std::size_t k) {
+            return static_cast<std::size_t>(cavity.facets[begin + lane].vertex[k]);
+        };
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const auto split = static_cast<std::size_t>(cavity.facets[begin + lane].split);
+            work.block.set(lane, cavity.points[corner(lane, 0)], cavity.points[corner(lane, 1)],
+                           cavity.points[corner(lane, 2)], mesh.cells()[split].center - q);
+        }
+        work.block.sibson();
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                work.shares[corner(lane, k)] += work.block.term(k, lane);
+            }
+        }
+    }
     const double total = std::accumulate(work.shares.begin(), work.shares.end(), 0.0);
     for (double& share : work.shares) {
         share /= total;
@@ -104,8 +127,8 @@ struct NaturalNeighbour::Impl {
         }
         work.cavity.find(mesh, q, at);
         // Not `cell`: on a facet the walk may have ended on either side.
-        const auto& home = mesh.cells()[static_cast<std::size_t>(work.cavity.cells.front().id)];
-        if (!shares_in_doubles(work, std::sqrt(home.squared_radius))) {
+        const auto& home = mesh.cells()[static_cast<std::size_t>(work.cavity.cells.front())];
+        if (!shares_in_doubles(mesh, q, work, std::sqrt(home.squared_radius))) {
             exact_shares(mesh, work.cavity, q, work.shares);
             out.fallback = true;
         }

@@ -20,7 +20,7 @@
 /// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in rational numbers. Weights::fallback says
 /// so.
 ///
-/// About 3 µs a query among uniform sites, 25 µs between 400 boreholes (docs/benchmarks.md); ~500 bytes a site.
+/// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~700 bytes a site.
 
 #include <memory>
 

@@ -2,82 +2,101 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Sibson's weights from a cavity: the volume that the query's Voronoi cell takes from each neighbour's. One formula
-/// for doubles and for exact numbers: Vector has members x, y, z and operators and functions +, −, *, dot, cross.
+/// Sibson's and Laplace's weights from a conflict zone. One set of formulas for doubles, packs of doubles and exact
+/// numbers: Vector has members x, y, z and operators and functions +, −, scalar *, dot, cross.
+///
+/// The bisectors of a cell's edges cut it into four parts, one about each vertex (signed where the circumcentre lies
+/// outside): what the cell gives to the vertices' Voronoi cells. So what site a loses to a query is the sum of a's
+/// parts of the cells of the zone, less those of the new cells that join the query to the zone's boundary. The former
+/// do not depend on the query and are kept with each cell; the latter depend on one facet of the boundary each. Nothing
+/// asks which cell of the zone lies beside which.
 
-#include <span>
-#include <vector>
-
-#include "interp/cavity.hpp"
+#include <array>
+#include <cstddef>
 
 namespace terratet {
 
-/// A facet abc of the cavity's boundary, with the query at the origin.
+/// Facet k of a cell lies opposite vertex k; seen from inside, (a, b, c) = facet_corners[k] have det(a, b, c) > 0.
+inline constexpr int facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+/// From a to the centre of the circle through a, a + u and a + v; computed twice, the second time from what the first
+/// left, since of a needle's centre only what makes it equidistant matters, and that is most of the error.
 template <typename Vector, typename Number>
-struct BoundaryFacet {
-    Vector center;  ///< of the sphere through the query, a, b and c
-    Number a;       ///< what closing the faces of its three edges adds to the volumes of a, b and c
-    Number b;
-    Number c;
+Vector circle_center(const Vector& u, const Vector& v) {
+    const Vector n = cross(u, v);
+    const Number scale = Number(1) / dot(n, n);
+    const Vector along_u = scale * cross(v, n), along_v = scale * cross(n, u);
+    const Number half_u = Number(0.5) * dot(u, u), half_v = Number(0.5) * dot(v, v);
+    const Vector center = half_u * along_u + half_v * along_v;
+    return center + (half_u - dot(center, u)) * along_u + (half_v - dot(center, v)) * along_v;
+}
 
-    BoundaryFacet(const Vector& pa, const Vector& pb, const Vector& pc, const Number& aa, const Number& bb,
-                  const Number& cc) {
-        const Vector na = cross(pb, pc), nb = cross(pc, pa), nc = cross(pa, pb);
-        const Number half_inverse = Number(0.5) / dot(pa, na);
-        center = half_inverse * (aa * na + bb * nb + cc * nc);
-        const Number ab = dot(pa, pb), bc = dot(pb, pc), ca = dot(pc, pa);
-        const Number ka = dot(center, na) / dot(na, na);
-        const Number kb = dot(center, nb) / dot(nb, nb);
-        const Number kc = dot(center, nc) / dot(nc, nc);
-        a = Number(0.5) * (kc * bb * (aa - ab) + kb * cc * (aa - ca));
-        b = Number(0.5) * (ka * cc * (bb - bc) + kc * aa * (bb - ab));
-        c = Number(0.5) * (kb * aa * (cc - ca) + ka * bb * (cc - bc));
-    }
-};
-
-/// Fills volumes[v], in a common unit, and squared[v], the squared length of points[v], for each vertex of the cavity.
-/// \param points, centers  of the cavity's vertices and cells, relative to the query
+/// The volumes of a cell's four parts, times 12. \param center  of its circumsphere
+/// \param splits  for each facet a point on its axis, the line of places equidistant to its three corners; there this
+///     cell's parts end and the neighbour's begin. Each part is still as above, but for what neighbours exchange.
 ///
-/// What a site a loses is a polyhedron: one face on the bisector of a and the query, and one on the bisector of a and b
-/// for each edge ab of the cavity, with the circumcentres of the cells round that edge as corners. As each face's plane
-/// has a known point, the polyhedron's volume is a sum over directed edges c₁c₂ of its faces of (c₁ × c₂)·point. Each
-/// dual edge bounds the faces of the three edges of a facet abd; there x = c₁ × c₂ gives a the share x·b − x·d, and so
-/// on round. Where the cavity ends, c₂ is the circumcentre g of the facet with the query, and the faces close along the
-/// line of places equidistant to a, b and the query, on which g lies at g·(a × b); that adds
-///     k |b|² a·(a − b) to a and k |a|² b·(b − a) to b,   k = g·(a × b) / 2|a × b|².
-/// No pairs of neighbouring facets are needed, and the only divisions are by facets that the query is off the plane of.
+/// The part about a is bounded by faces through a, by a face on the bisector of each edge, and, where the split is off
+/// the facet, by faces that the neighbour's part shares. With a as origin only the bisectors' count: for each facet and
+/// each of its two edges a triangle (split × center)·(middle of the edge).
 template <typename Vector, typename Number>
-void stolen_volumes(std::span<const Cavity::Cell> cells, std::span<const Vector> points,
-                    std::span<const Vector> centers, std::span<Number> squared, std::span<Number> volumes) {
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        squared[v] = dot(points[v], points[v]);
-        volumes[v] = Number(0);
-    }
-
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::int32_t other = cells[i].neighbour[k];
-            if (other >= 0 && static_cast<std::size_t>(other) < i) {
-                continue;  // done from the other side
-            }
-            const auto a = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][0]]);
-            const auto b = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][1]]);
-            const auto c = static_cast<std::size_t>(cells[i].vertex[facet_corners[k][2]]);
-            const Vector pa = points[a], pb = points[b], pc = points[c];
-            const auto add = [&](const Vector& x, const Number& to_a, const Number& to_b, const Number& to_c) {
-                const Number xa = dot(x, pa), xb = dot(x, pb), xc = dot(x, pc);
-                volumes[a] += to_a + (xb - xc);
-                volumes[b] += to_b + (xc - xa);
-                volumes[c] += to_c + (xa - xb);
-            };
-            if (other >= 0) {
-                add(cross(centers[i], centers[static_cast<std::size_t>(other)]), Number(0), Number(0), Number(0));
-            } else {
-                const BoundaryFacet<Vector, Number> facet(pa, pb, pc, squared[a], squared[b], squared[c]);
-                add(cross(centers[i], facet.center), facet.a, facet.b, facet.c);
-            }
+std::array<Number, 4> cell_parts(const std::array<Vector, 4>& p, const Vector& center,
+                                 const std::array<Vector, 4>& splits) {
+    std::array<Number, 4> parts{Number(0), Number(0), Number(0), Number(0)};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto corner = [&](std::size_t i) { return static_cast<std::size_t>(facet_corners[k][i % 3]); };
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector& a = p[corner(i)];
+            parts[corner(i)] += dot(cross(center - a, splits[k] - a), p[corner(i + 1)] - p[corner(i + 2)]);
         }
     }
+    return parts;
 }
+
+/// A facet abc of the zone's boundary, with the query at the origin and inside of it.
+template <typename Vector, typename Number>
+struct BoundaryFacet {
+    Vector a, b, c;
+    Vector normal_a, normal_b, normal_c;  ///< b × c and so on round: of the new cell's other facets
+    Number aa, bb, cc, ab, bc, ca;        ///< their products
+    Vector center;                        ///< g, of the sphere through the query, a, b and c
+    Number ka, kb, kc;                    ///< kc = g·(a × b) / |a × b|²
+
+    /// The centre is sought from the circle's: where the query is nearly coplanar with the facet only its distance from
+    /// there is uncertain.
+    BoundaryFacet(const Vector& pa, const Vector& pb, const Vector& pc) : a(pa), b(pb), c(pc) {
+        normal_a = cross(b, c), normal_b = cross(c, a), normal_c = cross(a, b);
+        aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+        ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
+        const Vector from_a = circle_center<Vector, Number>(b - a, c - a);
+        const Number rise = -(Number(0.5) * aa + dot(from_a, a)) / dot(a, normal_a);
+        center = a + from_a + rise * (normal_a + normal_b + normal_c);
+        ka = dot(center, normal_a) / dot(normal_a, normal_a);
+        kb = dot(center, normal_b) / dot(normal_b, normal_b);
+        kc = dot(center, normal_c) / dot(normal_c, normal_c);
+    }
+
+    /// What to add to the sums of a, b and c over the zone's cells, for Sibson's weights; times 12 as well.
+    /// \param split  the facet's, relative to the query
+    ///
+    /// With the query as origin, what a loses has faces on the bisectors of its edges of the zone, which go on from the
+    /// split to g (first term; second: for having taken a as the cells' origin), and one on its bisector with the
+    /// query. They meet along the lines equidistant to a, b and the query, on which g lies k times a × b from the plane
+    /// of the three; that gives a the last terms.
+    [[nodiscard]] std::array<Number, 3> sibson(const Vector& split) const {
+        const Vector x = cross(split, center);
+        const Number xa = dot(x, a), xb = dot(x, b), xc = dot(x, c);
+        const Number sa = dot(split, normal_a), sb = dot(split, normal_b), sc = dot(split, normal_c);
+        const Number half(0.5);
+        return {(xb - xc) - (sb + sc) + half * (kc * bb * (aa - ab) + kb * cc * (aa - ca)),
+                (xc - xa) - (sc + sa) + half * (ka * cc * (bb - bc) + kc * aa * (bb - ab)),
+                (xa - xb) - (sa + sb) + half * (kb * aa * (cc - ca) + ka * bb * (cc - bc))};
+    }
+
+    /// Its part of the area of the query's new Voronoi face with a, over |a|, and so on: Laplace's weights (Christ,
+    /// Friedberg and Lee 1982). Times 4.
+    [[nodiscard]] std::array<Number, 3> laplace() const {
+        return {kc * (bb - ab) + kb * (cc - ca), ka * (cc - bc) + kc * (aa - ab), kb * (aa - ca) + ka * (bb - bc)};
+    }
+};
 
 }  // namespace terratet

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Sets of, and maps from, small whole numbers that are emptied in no time: an entry counts only if it carries the
+/// stamp of the day. Direct addressing, 4 or 8 bytes for each number there may be; no hashing.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace terratet {
+
+/// Numbers below the size given to clear().
+class StampedSet {
+  public:
+    void clear(std::size_t size) {
+        if (stamps_.size() < size) {
+            stamps_.resize(size, 0);
+        }
+        if (++today_ == 0) {  // after four billion days
+            std::fill(stamps_.begin(), stamps_.end(), 0u);
+            today_ = 1;
+        }
+    }
+    [[nodiscard]] bool contains(std::int32_t i) const { return stamps_[static_cast<std::size_t>(i)] == today_; }
+    void insert(std::int32_t i) { stamps_[static_cast<std::size_t>(i)] = today_; }
+
+  private:
+    std::vector<std::uint32_t> stamps_;
+    std::uint32_t today_ = 0;
+};
+
+/// From numbers below the size given to clear() to others.
+class StampedMap {
+  public:
+    void clear(std::size_t size) {
+        known_.clear(size);
+        if (values_.size() < size) {
+            values_.resize(size);
+        }
+    }
+    [[nodiscard]] bool contains(std::int32_t key) const { return known_.contains(key); }
+    /// \pre contains(key)
+    [[nodiscard]] std::int32_t operator[](std::int32_t key) const { return values_[static_cast<std::size_t>(key)]; }
+    void insert(std::int32_t key, std::int32_t value) {
+        known_.insert(key);
+        values_[static_cast<std::size_t>(key)] = value;
+    }
+
+  private:
+    StampedSet known_;
+    std::vector<std::int32_t> values_;
+};
+
+}  // namespace terratet

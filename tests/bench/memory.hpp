@@ -4,6 +4,7 @@
 /// \file
 /// Peak memory of a piece of work, measured in a child process so that variants do not hide behind each other.
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@ inline std::size_t peak_memory_of(const std::function<void()>& work) {
     if (pipe(channel) != 0) {
         return 0;
     }
+    malloc_trim(0);  // else the child would work in what its parent has freed
     const pid_t child = fork();
     if (child == 0) {
         rusage before{};

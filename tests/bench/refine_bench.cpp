@@ -1,218 +1,186 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Refinement against TetGen on the same points, to the same largest volume and radius-edge ratio, in one run.
+/// Time to a mesh of a number of cells, side by side with TetGen, CGAL's Mesh_3 and Gmsh.
 ///
-///   refine_bench [RUNS]
+///   refine_bench [--runs N=5] [--cells N]… [--scaling N]…
 ///
-/// Points: the paper's arrangement (4 holes × 42, one plane of 15 × 31) and a large one (200 holes × 50, 5 planes).
-/// TetGen gets the box as its facets and the points as additional ones; we get the box's gridded faces. Both end with
-/// cells below the volume and radius-edge limits. TetGen runs with its optimisation off (O0) and at its default.
-
-#define TETLIBRARY  // the library interface of the header
-#include <tetgen.h>
+/// The points of the paper's experiment in their box. Each tool's size is first chosen so that it makes about the
+/// wanted number of cells (100 000 and 1 000 000 unless given); then all run in turn, N times, and the medians of their
+/// CPU times are scaled to exactly that number. --scaling measures our own cost per inserted vertex and memory instead,
+/// at the given numbers of cells.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <string>
-#include <vector>
 
-#include "tess/density.hpp"
-#include "tess/quality.hpp"
-#include "tess/refine.hpp"
-#include "tests/bench/memory.hpp"
-#include "tests/support.hpp"
+#include "memory.hpp"
+#include "own_mesh.hpp"
+#include "refinement_sites.hpp"
+#include "tess/error.hpp"
+
+using namespace terratet;
+using namespace terratet::bench;
 
 namespace {
 
-using namespace terratet;
+OwnMesh own(const PointsInBox& task, double volume, double aspect, bool plain) {
+    RefineOptions options;
+    options.candidates = !plain;
+    options.clean_up = !plain;
+    return refined(task, volume_criteria(volume, aspect), 1.2 * edge_of_volume(volume), options);
+}
 
-const Box3 box{{0, 0, 0}, {740, 1000, 1000}};
+/// A generator to time. `volume` bounds its cells, or is that of a regular cell with edges of its size.
+struct Tool {
+    std::string name;
+    std::function<std::optional<MeshResult>(const PointsInBox&, double volume)> run;
+    double volume = 0;
+    std::vector<MeshResult> results = {};
 
-std::vector<Vec3> arrangement(bool large) {
-    testing::Random random(5);
-    Samples samples;
-    const int holes = large ? 200 : 4;
-    const int records = large ? 50 : 42;
-    for (int hole = 0; hole < holes; ++hole) {
-        const double x = large ? random(30, 710) : (hole % 2 == 0 ? 270 : 470);
-        const double y = large ? random(30, 970) : (hole < 2 ? 400 : 600);
-        for (int i = 0; i < records; ++i) {
-            samples.positions.push_back({x + 3 * std::sin(0.1 * i) + random(0, 0.02), y + 2 * std::cos(0.13 * i),
-                                         60 + (large ? 18.0 : 20.0) * i});
+    [[nodiscard]] double median_seconds(double cells) const {
+        std::vector<double> seconds;
+        for (const MeshResult& result : results) {
+            seconds.push_back(result.seconds * cells / static_cast<double>(result.cells));
         }
+        std::ranges::sort(seconds);
+        return seconds[seconds.size() / 2];
     }
-    for (int plane = 0; plane < (large ? 5 : 1); ++plane) {
-        const double dip = 0.6 + 0.1 * plane;
-        for (int i = 0; i < 15; ++i) {
-            for (int j = 0; j < 31; ++j) {
-                samples.positions.push_back(
-                    {(large ? 100 + 80 * plane : 160) + 20 * i * std::cos(dip) + random(0, 1e-3),
-                     (large ? 150 + 60 * plane : 150) + 20.0 * j,
-                     (large ? 100 + 120 * plane : 350) + 20 * i * std::sin(dip)});
+};
+
+std::vector<Tool> tools() {
+    const auto ours = [](double aspect, bool plain) {
+        return [=](const PointsInBox& task, double volume) { return measured(own(task, volume, aspect, plain)); };
+    };
+    std::vector<Tool> all = {{"Terratet, insertion alone", ours(0, true)},
+                             {"Terratet", ours(0, false)},
+                             {"Terratet, β ≤ 8", ours(8, false)}};
+#ifdef TERRATET_TETGEN
+    // O0 alone changes nothing in TetGen 1.5.0: it still mends dihedral angles above 165°, unless o says that none is.
+    all.push_back(
+        {"TetGen `O0o/180`", [](const auto& task, double volume) { return tetgen(task, volume, 2, "O0o/180"); }});
+    all.push_back({"TetGen", [](const auto& task, double volume) { return tetgen(task, volume, 2, ""); }});
+#endif
+    all.push_back(
+        {"CGAL Mesh_3", [](const auto& task, double volume) { return mesh_3(task, edge_of_volume(volume)); }});
+#ifdef TERRATET_GMSH_PEER
+    all.push_back({"Gmsh", [](const auto& task, double volume) { return gmsh(task, edge_of_volume(volume)); }});
+#endif
+    return all;
+}
+
+/// Finds the volume at which the tool makes `cells` cells within 3 %, in a few tries.
+bool calibrate(Tool& tool, const PointsInBox& task, double cells) {
+    double volume = 1.6 * task.box.volume() / cells;
+    for (int i = 0; i < 5; ++i) {
+        const auto result = tool.run(task, volume);
+        if (!result) {
+            std::printf("%s failed\n", tool.name.c_str());
+            return false;
+        }
+        tool.volume = volume;
+        const double ratio = static_cast<double>(result->cells) / cells;
+        if (std::abs(ratio - 1) < 0.03) {
+            break;
+        }
+        volume *= ratio;
+    }
+    return true;
+}
+
+void compare(const PointsInBox& task, double cells, int runs) {
+    std::vector<Tool> all = tools();
+    std::erase_if(all, [&](Tool& tool) { return !calibrate(tool, task, cells); });
+    for (int run = 0; run < runs; ++run) {
+        for (Tool& tool : all) {
+            if (const auto result = tool.run(task, tool.volume)) {
+                tool.results.push_back(*result);
             }
         }
     }
-    std::erase_if(samples.positions, [](const Vec3& p) { return !Box3{{8, 8, 8}, {732, 992, 992}}.contains(p); });
-    const std::vector<Fault> no_faults;
-    const auto kept = edit_density(samples, 8, DensityMode::canonical, FaultProximity(no_faults)).kept;
-    std::vector<Vec3> points;
-    for (const auto i : kept) {
-        points.push_back(samples.positions[i]);
-    }
-    return points;
-}
-
-struct Result {
-    std::size_t points = 0;
-    std::size_t cells = 0;
-    double seconds = 0;
-    double dihedral_p1_deg = 0;
-    double sharp_percent = 0;  ///< cells with a dihedral angle below 5°
-};
-
-class Timer {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-template <class CornersOfCell>
-Result measured(std::size_t points, std::size_t cells, double seconds, const CornersOfCell& corners_of_cell) {
-    std::vector<double> angles(cells);
-    for (std::size_t c = 0; c < cells; ++c) {
-        angles[c] = cell_quality(corners_of_cell(c)).dihedral_min_deg;
-    }
-    std::ranges::sort(angles);
-    const auto sharp = std::ranges::lower_bound(angles, 5.0) - angles.begin();
-    return {points, cells, seconds, angles[cells / 100],
-            100.0 * static_cast<double>(sharp) / static_cast<double>(cells)};
-}
-
-Result ours(const std::vector<Vec3>& points, double volume, double radius_edge) {
-    Criteria criteria;
-    criteria.v_max = volume;
-    criteria.radius_edge = radius_edge;
-    criteria.aspect = 0;
-    const double edge = std::cbrt(volume * 6 * std::sqrt(2.0));  // of the regular cell of that volume
-    criteria.l_max = 4 * edge;                                   // not in force: volume and shape are
-    criteria.l_min = edge / 8;
-    const Timer timer;
-    const Domain domain{box, box};
-    const Frame frame;
-    const std::vector<Fault> no_faults;
-    std::vector<Vertex> vertices;
-    for (const Vec3& p : points) {
-        vertices.push_back({vertices.size(), p, Role::sample, static_cast<std::int32_t>(vertices.size()), 0});
-    }
-    for (const Vec3& p : face_grid(box, criteria.l_min, 1.2 * edge, points, frame)) {
-        vertices.push_back({vertices.size(), p, Role::domain, -1, 0});
-    }
-    Tessellation tessellation;
-    tessellation.insert(vertices);
-    VertexValues values{{}, std::vector<double>(vertices.size(), 0)};
-    const ValueSource no_values = [](std::span<const ValueQuery> queries) {
-        return ValueBatch{{}, std::vector<double>(queries.size(), 0)};
-    };
-    refine(tessellation, values, domain, frame, FaultProximity(no_faults), criteria, {}, no_values,
-           {.candidates = std::getenv("TERRATET_BENCH_PLAIN") == nullptr});
-    const double seconds = timer.seconds();
-    const TetMesh mesh = tessellation.mesh();
-    return measured(mesh.points.size(), mesh.cells.size(), seconds, [&](std::size_t c) {
-        const auto& v = mesh.cells[c];
-        return CellPoints{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
-    });
-}
-
-Result tetgen(const std::vector<Vec3>& points, double volume, double radius_edge, const std::string& more) {
-    const Timer timer;
-    tetgenio in;
-    tetgenio additional;
-    tetgenio out;
-    in.numberofpoints = 8;
-    in.pointlist = new double[24];
-    for (int i = 0; i < 8; ++i) {
-        in.pointlist[3 * i] = (i & 1) != 0 ? box.hi.x : box.lo.x;
-        in.pointlist[3 * i + 1] = (i & 2) != 0 ? box.hi.y : box.lo.y;
-        in.pointlist[3 * i + 2] = (i & 4) != 0 ? box.hi.z : box.lo.z;
-    }
-    constexpr int faces[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
-    in.numberoffacets = 6;
-    in.facetlist = new tetgenio::facet[6];
-    for (int f = 0; f < 6; ++f) {
-        tetgenio::facet& facet = in.facetlist[f];
-        tetgenio::init(&facet);
-        facet.numberofpolygons = 1;
-        facet.polygonlist = new tetgenio::polygon[1];
-        tetgenio::init(facet.polygonlist);
-        facet.polygonlist[0].numberofvertices = 4;
-        facet.polygonlist[0].vertexlist = new int[4];
-        std::copy(std::begin(faces[f]), std::end(faces[f]), facet.polygonlist[0].vertexlist);
-    }
-    additional.numberofpoints = static_cast<int>(points.size());
-    additional.pointlist = new double[3 * points.size()];
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        additional.pointlist[3 * i] = points[i].x;
-        additional.pointlist[3 * i + 1] = points[i].y;
-        additional.pointlist[3 * i + 2] = points[i].z;
-    }
-    std::string switches = "piQq" + std::to_string(radius_edge) + "a" + std::to_string(volume) + more;
-    tetrahedralize(switches.data(), &in, &out, &additional);
-    const double seconds = timer.seconds();
-    return measured(static_cast<std::size_t>(out.numberofpoints), static_cast<std::size_t>(out.numberoftetrahedra),
-                    seconds, [&](std::size_t c) {
-                        CellPoints corners;
-                        for (std::size_t k = 0; k < 4; ++k) {
-                            const double* p = out.pointlist + 3 * out.tetrahedronlist[4 * c + k];
-                            corners[k] = {p[0], p[1], p[2]};
-                        }
-                        return corners;
-                    });
-}
-
-double print(const std::string& tool, int runs, const std::function<Result()>& work) {
-    std::vector<double> seconds;
-    Result result;
-    const std::size_t peak = bench::peak_memory_of([&] { work(); });
-    for (int run = 0; run < runs; ++run) {
-        result = work();
-        seconds.push_back(result.seconds);
-    }
-    std::ranges::sort(seconds);
-    const double median = seconds[seconds.size() / 2];
-    const double rate = static_cast<double>(result.cells) / median / 1e3;
     std::printf(
-        "  %-28s %9zu points %9zu cells  %7.3f s  %6.0f k cells/s  %5.0f B/vertex  1 %% of cells below %4.1f deg, %.2f "
-        "%% below 5\n",
-        tool.c_str(), result.points, result.cells, median, rate,
-        static_cast<double>(peak) / static_cast<double>(result.points), result.dihedral_p1_deg, result.sharp_percent);
+        "\n%.0f cells from %zu points, R/l <= 2, medians of %d\n\n| | cells | vertices | seconds | k cells/s | 1 %% of "
+        "dihedrals below | cells below 5° |\n|---|---|---|---|---|---|---|\n",
+        cells, task.points.size(), runs);
+    for (const Tool& tool : all) {
+        const MeshResult& one = tool.results.front();
+        std::printf("| %s | %zu | %zu | %.3f | %.0f | %.1f° | %.3f %% |\n", tool.name.c_str(), one.cells, one.vertices,
+                    tool.median_seconds(cells), cells / tool.median_seconds(cells) / 1000, one.dihedral_p1_deg,
+                    one.sharp_percent);
+    }
+    const auto ratio = [&](const std::string& ours, const std::string& peer) {
+        const auto a = std::ranges::find(all, ours, &Tool::name);
+        const auto b = std::ranges::find(all, peer, &Tool::name);
+        if (a != all.end() && b != all.end()) {
+            std::printf("%s / %s: %.2f\n", ours.c_str(), peer.c_str(),
+                        a->median_seconds(cells) / b->median_seconds(cells));
+        }
+    };
+    std::printf("\n");
+    ratio("Terratet, insertion alone", "TetGen `O0o/180`");
+    for (const char* ours : {"Terratet", "Terratet, β ≤ 8"}) {
+        for (const char* peer : {"TetGen", "CGAL Mesh_3", "Gmsh"}) {
+            ratio(ours, peer);
+        }
+    }
     std::fflush(stdout);
-    return rate;
+}
+
+void scaling(const PointsInBox& task, double cells, int runs) {
+    for (const bool plain : {true, false}) {
+        Tool tool{"", [&](const PointsInBox& t, double volume) { return measured(own(t, volume, 8, plain)); }};
+        calibrate(tool, task, cells);
+        const std::size_t peak = peak_memory_of([&] { own(task, tool.volume, 8, plain); });
+        std::vector<double> each;
+        std::size_t vertices = 0;
+        std::size_t made = 0;
+        for (int run = 0; run < runs; ++run) {
+            const OwnMesh mesh = own(task, tool.volume, 8, plain);
+            each.push_back(1e6 * mesh.refine_seconds / static_cast<double>(mesh.report.inserted));
+            vertices = mesh.tessellation.vertices().size();
+            made = mesh.tessellation.cell_count();
+        }
+        std::ranges::sort(each);
+        std::printf("| %zu | %zu | %s | %.2f | %.0f |\n", made, vertices,
+                    plain ? "alone" : "with candidates and clean-up", each[each.size() / 2],
+                    static_cast<double>(peak) / static_cast<double>(vertices));
+        std::fflush(stdout);
+    }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const int runs = argc > 1 ? std::atoi(argv[1]) : 5;
-    for (const bool large : {false, true}) {
-        const auto points = arrangement(large);
-        for (const double volume : {60000.0, 1300.0}) {
-            std::printf("%s: %zu points, V <= %g, R/l <= 2, median of %d runs\n", large ? "200 holes" : "4 holes",
-                        points.size(), volume, runs);
-            const double own = print("terratet", runs, [&] { return ours(points, volume, 2); });
-            const double plain =
-                print("TetGen, optimisation off", runs, [&] { return tetgen(points, volume, 2, "O0"); });
-            const double full = print("TetGen", runs, [&] { return tetgen(points, volume, 2, ""); });
-            std::printf("  cells per second: %.2f x TetGen without optimisation, %.2f x TetGen\n", own / plain,
-                        own / full);
+    int runs = 5;
+    std::vector<double> sizes;
+    std::vector<double> growth;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (std::strcmp(argv[i], "--runs") == 0) {
+            runs = std::max(1, std::atoi(argv[i + 1]));
+        } else if (std::strcmp(argv[i], "--cells") == 0) {
+            sizes.push_back(std::atof(argv[i + 1]));
+        } else if (std::strcmp(argv[i], "--scaling") == 0) {
+            growth.push_back(std::atof(argv[i + 1]));
+        } else {
+            throw UsageError(std::string("refine_bench does not know ") + argv[i]);
         }
+    }
+    const PointsInBox task = bare_points(twin());
+    if (sizes.empty() && growth.empty()) {
+        sizes = {1e5, 1e6};
+    }
+    for (const double cells : sizes) {
+        compare(task, cells, runs);
+    }
+    if (!growth.empty()) {
+        std::printf(
+            "| cells | vertices | insertion | µs per inserted vertex | bytes per vertex |\n|---|---|---|---|---|\n");
+    }
+    for (const double cells : growth) {
+        scaling(task, cells, runs);
     }
 }

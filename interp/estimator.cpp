@@ -3,14 +3,18 @@
 #include "interp/estimator.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "interp/estimator_catalogue.hpp"
 #include "interp/idw.hpp"
+#include "interp/kriging.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "interp/nearest.hpp"
+#include "interp/variogram_fit.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -82,6 +86,33 @@ Anisotropy anisotropy_of(const EstimatorSpec& spec) {
             value_of(spec, "ratio3")};
 }
 
+std::optional<double> given(const EstimatorSpec& spec, const std::string& key) {
+    const auto found = spec.options.find(key);
+    return found == spec.options.end() ? std::nullopt : number(found->second);
+}
+
+VariogramFamily family_of(const EstimatorSpec& spec) {
+    const auto found = spec.options.find("model");
+    return found == spec.options.end() ? VariogramFamily::spherical : variogram_family(found->second);
+}
+
+Drift drift_of(const EstimatorSpec& spec) {
+    const auto found = spec.options.find("drift");
+    return found != spec.options.end() && found->second == "linear" ? Drift::linear : Drift::constant;
+}
+
+KrigingOptions kriging_options(const EstimatorSpec& spec) {
+    return {{family_of(spec), value_of(spec, "nu"), *given(spec, "nugget"), *given(spec, "sill"), *given(spec, "range"),
+             anisotropy_of(spec)},
+            drift_of(spec),
+            neighbourhood_of(spec)};
+}
+
+std::string shortest(double value) {
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 }  // namespace
 
 std::string EstimatorSpec::to_string() const {
@@ -118,12 +149,74 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector
     if (name == "nearest") {
         return std::make_unique<Nearest>(std::move(sites), faults, anisotropy_of(spec));
     }
+    if (name == "kriging") {
+        assert(!needs_values(spec));
+        return std::make_unique<Kriging>(std::move(sites), faults, kriging_options(spec), boreholes);
+    }
     if (name == "idw") {
         return std::make_unique<InverseDistance>(
             std::move(sites), faults, IdwOptions{value_of(spec, "power"), neighbourhood_of(spec), anisotropy_of(spec)},
             std::move(boreholes));
     }
     return std::make_unique<NaturalNeighbour>(std::move(sites), faults);
+}
+
+bool needs_values(const EstimatorSpec& spec) {
+    const auto open = [&](const char* key) { return !spec.options.contains(key); };
+    return spec.name == "kriging" && (open("nugget") || open("sill") || open("range") || open("ratio3"));
+}
+
+EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
+                               std::span<const std::int32_t> boreholes, Kind kind) {
+    if (!needs_values(spec)) {
+        return spec;
+    }
+    VariogramRequest request{family_of(spec),      value_of(spec, "nu"),  given(spec, "nugget"), given(spec, "sill"),
+                             given(spec, "range"), given(spec, "ratio3"), anisotropy_of(spec)};
+    request.anisotropy.ratio3 = 1;
+    request.categorical = kind == Kind::categorical;
+    std::vector<double> detrended;
+    if (drift_of(spec) == Drift::linear && kind == Kind::continuous) {
+        detrended = without_linear_trend(sites, values);
+        values = detrended;
+    }
+    const Variogram fit = fit_variogram(sites, values, boreholes, request).variogram;
+    EstimatorSpec complete = spec;
+    complete.options["nugget"] = shortest(fit.nugget);
+    complete.options["sill"] = shortest(fit.sill);
+    complete.options["range"] = shortest(fit.range);
+    complete.options["ratio3"] = shortest(fit.anisotropy.ratio3);
+    return complete;
+}
+
+const EstimatorSpec& EstimatorPlan::of(const std::string& property) const {
+    const auto found = of_property.find(property);
+    return found == of_property.end() ? general : found->second;
+}
+
+std::string EstimatorPlan::to_string() const {
+    std::string text = general.to_string();
+    for (const auto& [property, spec] : of_property) {
+        text += "\n" + spec.to_string() + " of " + property;
+    }
+    return text;
+}
+
+EstimatorPlan parse_estimator_plan(const std::string& text) {
+    EstimatorPlan plan;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t of = line.find(" of ");
+        const EstimatorSpec spec = parse_estimator(line.substr(0, of));
+        if (of == std::string::npos) {
+            plan.general = spec;
+        } else {
+            plan.of_property[line.substr(of + 4)] = spec;
+        }
+        begin = end + 1;
+    }
+    return plan;
 }
 
 }  // namespace terratet

@@ -5,10 +5,7 @@
 /// Estimators: values at places from the original samples. Every method here is linear, so an estimator yields weights
 /// over its sites and serves all properties measured at the same sites at once.
 ///
-/// Specification syntax, as in gdal_grid: `NAME[:key=value]…`
-///   nearest                                        the nearest visible sample
-///   idw[:power=2][:radius=R][:max_points=12]       inverse distance weighting over the nearest visible samples
-///   natural                                        Sibson's natural neighbours (natural_neighbour.hpp). Default
+/// Specification syntax, as in gdal_grid: `NAME[:key=value]…`; estimator_catalogue.hpp lists names and options.
 /// Faults are barriers: a sample counts only if the segment to it crosses no fault's sheet; weights are renormalised.
 /// A place all of whose samples are hidden gets no value.
 
@@ -18,9 +15,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
@@ -35,6 +34,22 @@ struct EstimatorSpec {
 
 /// Parses and checks names, options and ranges. Throws UsageError that lists what there is.
 EstimatorSpec parse_estimator(const std::string& text);
+
+/// The estimators of a model's properties: one for all, but for those that have their own. Text: a specification, and
+/// on further lines `SPEC of PROPERTY`.
+struct EstimatorPlan {
+    EstimatorSpec general;
+    std::map<std::string, EstimatorSpec> of_property;
+
+    EstimatorPlan() = default;
+    EstimatorPlan(EstimatorSpec spec) : general(std::move(spec)) {}  // NOLINT: one for all is the usual plan
+
+    [[nodiscard]] const EstimatorSpec& of(const std::string& property) const;
+    [[nodiscard]] std::string to_string() const;
+};
+
+/// Throws UsageError as parse_estimator does.
+EstimatorPlan parse_estimator_plan(const std::string& text);
 
 struct SiteWeight {
     std::uint32_t site;
@@ -61,11 +76,19 @@ class Estimator {
     [[nodiscard]] virtual bool has_variance() const { return false; }
 };
 
+/// \pre `spec` lacks nothing (needs_values)
 /// \param sites     distinct positions, at least one
 /// \param faults    barriers; must outlive the estimator; may be null
 /// \param boreholes of each site its borehole, −1 for a loose one, for methods that limit how many of one borehole they
 ///                  take; empty: all loose
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
                                           const FaultProximity* faults, std::vector<std::int32_t> boreholes = {});
+
+/// Does it leave a variogram's parameters to be fitted?
+bool needs_values(const EstimatorSpec& spec);
+
+/// With what it leaves open fitted to values in the property's scale (variogram_fit.hpp); as it is when nothing is.
+EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
+                               std::span<const std::int32_t> boreholes, Kind kind = Kind::continuous);
 
 }  // namespace terratet

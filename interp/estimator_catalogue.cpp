@@ -42,7 +42,7 @@ Options shares(const std::string& per_octant, const std::string& per_borehole) {
              .lowest = 0,
              .highest = 100'000,
              .whole = true,
-             .implied = true},
+             .implied = per_octant == "0"},
             {.name = "per_borehole",
              .default_value = per_borehole,
              .unit = "",
@@ -50,7 +50,7 @@ Options shares(const std::string& per_octant, const std::string& per_borehole) {
              .lowest = 0,
              .highest = 100'000,
              .whole = true,
-             .implied = true}};
+             .implied = per_borehole == "0"}};
 }
 
 Options anisotropy(const std::string& ratio3) {
@@ -98,6 +98,46 @@ const std::vector<EstimatorMethod>& estimator_catalogue() {
                   .lowest = 0,
                   .highest = 100}} +
              neighbourhood("12") + shares("0", "0") + anisotropy("1")},
+        {"kriging",
+         "the linear estimate of least variance for a variogram, fitted to the samples where it is not given",
+         Options{
+             {.name = "drift",
+              .default_value = "constant",
+              .unit = "",
+              .help = "constant: ordinary kriging; linear: universal, about a plane",
+              .words = {"constant", "linear"}},
+             {.name = "model",
+              .default_value = "spherical",
+              .unit = "",
+              .help = "spherical, exponential, gaussian or matern",
+              .words = {"spherical", "exponential", "gaussian", "matern"}},
+             {.name = "nu",
+              .default_value = "1.5",
+              .unit = "",
+              .help = "smoothness of matern",
+              .lowest = 0,
+              .highest = 50,
+              .above = true,
+              .implied = true},
+             {.name = "nugget",
+              .default_value = "",
+              .unit = "value²",
+              .help = "variance over no distance; fitted by default",
+              .lowest = 0},
+             {.name = "sill",
+              .default_value = "",
+              .unit = "value²",
+              .help = "variance besides the nugget; fitted by default",
+              .lowest = 0},
+             {.name = "range",
+              .default_value = "",
+              .unit = "length",
+              .help = "along the first axis; where the sill is reached (spherical), or the length that distances are "
+                      "divided by (the others: 95 % of the sill lie at 3, √3 and, matern 1.5, 4.7 ranges); fitted "
+                      "by default",
+              .lowest = 0,
+              .above = true}} +
+             neighbourhood("24") + shares("4", "8") + anisotropy("")},
         {"nearest", "the value of the nearest sample that no fault hides", anisotropy("1")},
     };
     return all;

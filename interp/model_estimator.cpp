@@ -26,8 +26,9 @@ struct Column {
     std::optional<LocalError> local_error;
 };
 
-/// Properties measured at the same samples, and the estimator over those.
+/// Properties measured at the same samples and estimated alike, and the estimator over those.
 struct Group {
+    EstimatorSpec spec;
     std::vector<std::uint32_t> samples;
     std::vector<Vec3> sites;
     std::vector<Column> columns;
@@ -53,36 +54,58 @@ std::vector<T> picked(const std::vector<T>& from, std::span<const std::uint32_t>
     return out;
 }
 
-/// One for each distinct set of samples; a property without any is in no group and gets no values.
-std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec) {
-    std::map<std::vector<std::uint32_t>, std::vector<std::size_t>> properties_at;
+std::vector<std::uint32_t> samples_with(const Model& model, std::size_t p) {
+    std::vector<std::uint32_t> present;
+    for (std::uint32_t s = 0; s < model.samples.size(); ++s) {
+        if (!std::isnan(to_scale(model.properties[p], model.samples.values[p][s]))) {
+            present.push_back(s);
+        }
+    }
+    return present;
+}
+
+/// Fits what the plan leaves open, and notes it there.
+EstimatorSpec fitted_for(const Model& model, const Column& column, std::span<const std::uint32_t> samples,
+                         EstimatorPlan& plan) {
+    const Property& property = model.properties[column.property];
+    const EstimatorSpec& spec = plan.of(property.name);
+    if (!needs_values(spec)) {
+        return spec;
+    }
+    EstimatorSpec fitted = fitted_estimator(spec, picked(model.samples.positions, samples), column.scaled,
+                                            picked(model.samples.borehole, samples), property.kind);
+    plan.of_property[property.name] = fitted;
+    return fitted;
+}
+
+/// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
+/// values.
+std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, EstimatorPlan& plan) {
+    std::map<std::pair<std::vector<std::uint32_t>, std::string>, Group> groups;
     for (std::size_t p = 0; p < model.properties.size(); ++p) {
-        std::vector<std::uint32_t> present;
-        for (std::uint32_t s = 0; s < model.samples.size(); ++s) {
-            if (!std::isnan(to_scale(model.properties[p], model.samples.values[p][s]))) {
-                present.push_back(s);
-            }
+        auto samples = samples_with(model, p);
+        if (samples.empty()) {
+            continue;
         }
-        if (!present.empty()) {
-            properties_at[std::move(present)].push_back(p);
-        }
+        Column column = column_of(model, p, samples);
+        EstimatorSpec spec = fitted_for(model, column, samples, plan);
+        Group& group = groups[{samples, spec.to_string()}];
+        group.columns.push_back(std::move(column));
+        group.spec = std::move(spec);
+        group.samples = std::move(samples);
     }
-    std::vector<Group> groups;
-    for (const auto& [samples, properties] : properties_at) {
-        Group& group = groups.emplace_back();
-        group.samples = samples;
-        group.sites = picked(model.samples.positions, samples);
-        for (const std::size_t p : properties) {
-            group.columns.push_back(column_of(model, p, samples));
-        }
-        group.estimator = make_estimator(spec, group.sites, &faults, picked(model.samples.borehole, samples));
+    std::vector<Group> out;
+    for (auto& [key, group] : groups) {
+        group.sites = picked(model.samples.positions, group.samples);
+        group.estimator =
+            make_estimator(group.spec, group.sites, &faults, picked(model.samples.borehole, group.samples));
+        out.push_back(std::move(group));
     }
-    return groups;
+    return out;
 }
 
 /// Leaves boreholes out to learn how far estimates are off.
-void learn_errors(Group& group, const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
-                  std::size_t max_folds) {
+void learn_errors(Group& group, const Model& model, const FaultProximity& faults, std::size_t max_folds) {
     for (auto& column : group.columns) {
         if (model.properties[column.property].kind == Kind::continuous) {
             column.local_error.emplace(group.sites, column.scaled);
@@ -90,7 +113,7 @@ void learn_errors(Group& group, const Model& model, const FaultProximity& faults
     }
     const auto boreholes = picked(model.samples.borehole, group.samples);
     const auto make = [&](std::span<const std::uint32_t> kept) {
-        return make_estimator(spec, picked(group.sites, kept), &faults, picked(boreholes, kept));
+        return make_estimator(group.spec, picked(group.sites, kept), &faults, picked(boreholes, kept));
     };
     for_each_left_out(group.sites, folds_of(model.samples, group.samples, max_folds), make,
                       [&](std::uint32_t site, const Weights& weights) {
@@ -183,6 +206,7 @@ const char* to_string(DeviationSource source) {
 
 struct ModelEstimator::Impl {
     const Model& model;
+    EstimatorPlan plan;
     std::vector<Group> groups;
     std::shared_ptr<EstimatorCounters> counters;
 
@@ -279,20 +303,28 @@ struct ModelEstimator::Impl {
     }
 };
 
-ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
+ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
                                std::shared_ptr<EstimatorCounters> counters, const ModelEstimatorOptions& options)
-    : impl_(new Impl{model, groups_of(model, faults, spec), std::move(counters)}) {
+    : impl_(new Impl{model, plan, {}, std::move(counters)}) {
+    impl_->groups = groups_of(model, faults, impl_->plan);
+    if (impl_->groups.size() == 1) {
+        impl_->plan = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
+    }
     if (options.uncertainty) {
         for (auto& group : impl_->groups) {
             if (group.estimator->has_variance()) {
                 continue;
             }
-            learn_errors(group, model, faults, spec, options.error_folds);
+            learn_errors(group, model, faults, options.error_folds);
         }
     }
 }
 
 ModelEstimator::~ModelEstimator() = default;
+
+const EstimatorPlan& ModelEstimator::plan() const {
+    return impl_->plan;
+}
 
 ValueBatch ModelEstimator::values(std::span<const ValueQuery> queries) const {
     ValueBatch batch;

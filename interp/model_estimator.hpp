@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// Estimates of a model's properties from its samples (all of them, dropped ones included), with what is known about
-/// their quality. Properties measured at the same samples share one estimator.
+/// their quality. Properties measured at the same samples share one estimator, unless a variogram is fitted to each.
 
 #include <atomic>
 #include <cstdint>
@@ -52,7 +52,8 @@ struct ModelEstimatorOptions {
 class ModelEstimator {
   public:
     /// Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive this.
-    ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorSpec& spec,
+    /// What `plan` leaves open is fitted to each property's samples (plan() tells).
+    ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
                    std::shared_ptr<EstimatorCounters> counters = {}, const ModelEstimatorOptions& options = {});
     ~ModelEstimator();
 
@@ -65,6 +66,9 @@ class ModelEstimator {
     /// Everything, one entry a property of the model; a property without samples has no values. Deviations are unknown
     /// unless options.uncertainty was set.
     [[nodiscard]] std::vector<PropertyEstimates> estimates(std::span<const ValueQuery> queries) const;
+
+    /// With everything fitted: what a model keeps, so that its estimator stays as it was.
+    [[nodiscard]] const EstimatorPlan& plan() const;
 
   private:
     struct Impl;

@@ -77,7 +77,7 @@ final           vertices, tetrahedra, gap_tetrahedra, skinny_percent,
                 edge_m {min, max}, fault_crossing_edges, delaunay, regions,
                 below {dihedral, vmin}
 fidelity        per property: rms, max, count, against all samples
-estimator       name, options, fallbacks
+estimator       name, options, fitted, fallbacks
 outputs         [{path, bytes}]
 seconds         read, density, boundary, refine, estimate, write, total
 peak_memory_bytes

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "interp/model_source.hpp"
+#include "interp/model_estimator.hpp"
 #include "interp/uncertainty.hpp"
 #include "tools/text.hpp"
 
@@ -61,10 +61,14 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     options.refine.progress = progress;
     record.estimator = parse_estimator(arguments.estimator);
     const auto counters = std::make_shared<EstimatorCounters>();
-    const auto factory = [&](const Model& model, const FaultProximity& faults) {
-        return make_model_source(model, faults, record.estimator, counters);
+    std::string fitted;
+    const auto factory = [&](const Model& model, const FaultProximity& faults) -> ValueSource {
+        const auto estimator = std::make_shared<const ModelEstimator>(model, faults, record.estimator, counters);
+        fitted = estimator->plan().to_string();
+        return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
     };
     Model model = build(std::move(site), options, factory, record.report, progress);
+    model.estimator = fitted;
 
     record.fallbacks = counters->fallbacks;
     record.defaults = chosen_defaults(arguments, model);
@@ -78,7 +82,7 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
 
 void describe_uncertainty(Model& model) {
     const FaultProximity faults(model.faults);
-    const ModelEstimator estimator(model, faults, parse_estimator(model.estimator), {}, {.uncertainty = true});
+    const ModelEstimator estimator(model, faults, parse_estimator_plan(model.estimator), {}, {.uncertainty = true});
     add_uncertainty(model, estimator);
 }
 

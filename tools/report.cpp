@@ -177,7 +177,10 @@ std::string report_text(const RunRecord& record) {
         report["refine"] = refine_json(build.report.refine);
         report["final"] = final_json(record);
         report["fidelity"] = fidelity_json(record);
-        report["estimator"] = {{"name", build.estimator.name}, {"options", options}, {"fallbacks", build.fallbacks}};
+        report["estimator"] = {{"name", build.estimator.name},
+                               {"options", options},
+                               {"fitted", record.model->estimator},
+                               {"fallbacks", build.fallbacks}};
     }
     report["outputs"] = Json::array();
     for (const auto& output : record.outputs) {

@@ -57,8 +57,8 @@ TEST_CASE("Estimator specifications are written out with every default") {
 }
 
 TEST_CASE("Wrong estimator specifications are refused with what there is") {
-    CHECK(message_of("kringing") == "estimator 'kringing' is not known; there are natural, idw, nearest");
-    CHECK(message_of("").find("there are natural, idw, nearest") != std::string::npos);
+    CHECK(message_of("kringing") == "estimator 'kringing' is not known; there are natural, idw, kriging, nearest");
+    CHECK(message_of("").find("there are natural, idw, kriging, nearest") != std::string::npos);
     CHECK(message_of("idw:pwr=2") ==
           "estimator 'idw' has no option 'pwr'; it has power, radius, max_points, "
           "per_octant, per_borehole, azimuth, dip, roll, ratio2, ratio3");

@@ -258,3 +258,64 @@ TEST_CASE("Uncertainty becomes properties of the vertices, once however often it
     CHECK(model.properties.size() == names.size());
     CHECK(same_bits(model.vertex_values.values[4], others[0].deviation));
 }
+
+TEST_CASE("Kriging is fitted to each property, says so, and is taken up again as it was") {
+    const Model model = wells_model();
+    const auto queries = queries_in({{0, 0, 0}, {1000, 1000, 1000}}, 500, 39);
+    const ModelEstimator fitted(model, no_faults(), parse_estimator("kriging"), {}, {.uncertainty = true});
+    const auto estimates = fitted.estimates(queries);
+    CHECK(fitted.plan().of_property.size() == 3);
+    CHECK(estimates[0].deviation_source == DeviationSource::kriging);
+    CHECK(estimates[2].deviation_source == DeviationSource::none);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        REQUIRE(estimates[0].deviation[i] > 0);
+        REQUIRE(estimates[0].samples[i] <= 24);
+        double sum = 0;
+        for (const auto& column : estimates[2].probability) {
+            REQUIRE(column[i] >= 0);
+            sum += column[i];
+        }
+        REQUIRE(sum == Approx(1).margin(1e-12));
+    }
+    const ModelEstimator again(model, no_faults(), parse_estimator_plan(fitted.plan().to_string()));
+    CHECK(again.plan().to_string() == fitted.plan().to_string());
+    REQUIRE(same_bits(again.values(queries).values[0], estimates[0].value));
+
+    Model one = wells_model();
+    one.properties.resize(1);
+    one.samples.values.resize(1);
+    const ModelEstimator alone(one, no_faults(), parse_estimator("kriging"));
+    CHECK(alone.plan().of_property.empty());
+    CHECK_FALSE(needs_values(alone.plan().general));
+}
+
+TEST_CASE("Degenerate samples give defined estimates: none, few, in a line, in a plane, all equal") {
+    const std::vector<ValueQuery> queries = {{{0, 0, 0}}, {{0.5, 0.2, 0.1}}, {{10, -20, 30}}, {{1, 0, 0}}};
+    for (const std::string spec : {"natural", "idw", "kriging", "kriging:drift=linear:model=gaussian", "nearest"}) {
+        for (std::size_t n = 0; n <= 4; ++n) {
+            for (int kind = 0; kind < 3; ++kind) {
+                Model model;
+                model.properties = {{"v", "", Scale::linear, Kind::continuous, {}}};
+                model.samples.values.resize(1);
+                for (std::size_t i = 0; i < n; ++i) {
+                    const double t = double(i);
+                    model.samples.positions.push_back(kind == 0   ? Vec3{t, t * t, t * t * t}
+                                                      : kind == 1 ? Vec3{t, 0, 0}
+                                                                  : Vec3{t, t * t, 0});
+                    model.samples.borehole.push_back(static_cast<std::int32_t>(i));
+                    model.samples.values[0].push_back(kind == 1 ? 7 : t);
+                }
+                const auto e = ModelEstimator(model, no_faults(), parse_estimator(spec), {}, {.uncertainty = true})
+                                   .estimates(queries)[0];
+                for (std::size_t i = 0; i < queries.size(); ++i) {
+                    CAPTURE(spec, n, kind, i);
+                    CHECK(std::isnan(e.value[i]) == (n == 0));
+                    CHECK((n == 0) == (e.samples[i] == 0));
+                    CHECK((kind != 1 || n == 0 || std::abs(e.value[i] - 7) < 1e-9));
+                    CHECK((std::isnan(e.deviation[i]) || e.deviation[i] >= 0));
+                    CHECK((n < 2 || !std::isnan(e.deviation[i])));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Variogram models from samples. Boreholes are dense along and sparse across, so the two are looked at apart: the
+/// nugget and the short range come from pairs along the holes, sill and horizontal range from pairs across.
+
+#include <optional>
+
+#include "interp/experimental_variogram.hpp"
+#include "interp/variogram.hpp"
+
+namespace terratet {
+
+/// What is given is kept, the rest is fitted.
+struct VariogramRequest {
+    VariogramFamily family = VariogramFamily::spherical;
+    double nu = 1.5;
+    std::optional<double> nugget{};
+    std::optional<double> sill{};
+    std::optional<double> range{};
+    std::optional<double> ratio3{};  ///< vertical range over horizontal
+    Anisotropy anisotropy{};         ///< its angles and ratio2; with any of them ratio3 is not fitted: 1 unless given
+    bool categorical = false;
+    bool robust = false;
+};
+
+struct VariogramFit {
+    Variogram variogram;
+    std::vector<Lag> along;   ///< holes; empty without boreholes
+    std::vector<Lag> across;  ///< pairs of different holes near the horizontal
+    std::vector<Lag> all;     ///< whatever the direction
+    bool apart = false;       ///< were the ranges along and across fitted apart?
+};
+
+/// \param values  in the property's scale, finite. Equal values, or a single one: no nugget, no sill, a range of the
+///                samples' box. Never fails. About 0.2 s for 5000 samples or more.
+VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double> values,
+                           std::span<const std::int32_t> boreholes, const VariogramRequest& request);
+
+/// Weighted least squares with weights pairs/distance² (gstat's default): the best of all ranges, and for each of them
+/// the best nugget and sill not below 0. \pre lags are not empty
+Variogram fit_model(std::span<const Lag> lags, Variogram start, std::optional<double> nugget,
+                    std::optional<double> sill, std::optional<double> range);
+
+}  // namespace terratet

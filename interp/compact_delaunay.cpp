@@ -202,6 +202,18 @@ CompactDelaunay::Location CompactDelaunay::locate(const Vec3& q, std::int32_t st
     }
 }
 
+bool CompactDelaunay::contains(const Cell& cell, const Vec3& q) const {
+    for (const auto& facet : facet_corners) {
+        const auto p = [&](std::size_t i) -> const Vec3& {
+            return points_[static_cast<std::size_t>(cell.vertex[static_cast<std::size_t>(facet[i])])];
+        };
+        if (side(p(0) - q, p(1) - q, p(2) - q, q, p(0), p(1), p(2)) < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool CompactDelaunay::in_conflict_exact(const Cell& cell, const Vec3& q) const {
     const auto p = [&](std::size_t k) { return exact(points_[static_cast<std::size_t>(cell.vertex[k])]); };
     return CGAL::side_of_oriented_sphere(p(0), p(1), p(2), p(3), exact(q)) == CGAL::ON_POSITIVE_SIDE;

@@ -74,6 +74,9 @@ class CompactDelaunay {
     /// and Teillaud 2002). \pre within_reach(q)
     [[nodiscard]] Location locate(const Vec3& q, std::int32_t start) const;
 
+    /// Is q inside the cell or on its boundary? \pre within_reach(q)
+    [[nodiscard]] bool contains(const Cell& cell, const Vec3& q) const;
+
     /// Is q strictly inside the cell's circumsphere?
     [[nodiscard]] bool in_conflict(const Cell& cell, const Vec3& q) const {
         const double power = squared_distance(q, cell.center) - cell.squared_radius;

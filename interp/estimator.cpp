@@ -12,6 +12,7 @@
 #include "interp/estimator_catalogue.hpp"
 #include "interp/idw.hpp"
 #include "interp/kriging.hpp"
+#include "interp/linear.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "interp/nearest.hpp"
 #include "interp/variogram_fit.hpp"
@@ -158,7 +159,14 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector
             std::move(sites), faults, IdwOptions{value_of(spec, "power"), neighbourhood_of(spec), anisotropy_of(spec)},
             std::move(boreholes));
     }
-    return std::make_unique<NaturalNeighbour>(std::move(sites), faults);
+    if (name == "linear") {
+        return std::make_unique<LinearInCells>(std::move(sites), faults);
+    }
+    NaturalNeighbourOptions options;
+    options.weighting =
+        name == "laplace" ? NaturalNeighbourOptions::Weighting::laplace : NaturalNeighbourOptions::Weighting::sibson;
+    options.smooth = spec.options.contains("smooth");
+    return std::make_unique<NaturalNeighbour>(std::move(sites), faults, options);
 }
 
 bool needs_values(const EstimatorSpec& spec) {

@@ -42,11 +42,9 @@ ExactVector split(const ExactVector& a, const ExactVector& b, const ExactVector&
     return a + circle_center<ExactVector, Number>(b - a, c - a);
 }
 
-}  // namespace
-
-void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, std::vector<double>& shares) {
-    std::vector<Number> volumes(cavity.vertices.size(), Number(0));
-    const auto point = [&](std::int32_t v) { return exact(mesh.points()[static_cast<std::size_t>(v)]) - exact(q); };
+/// The cells' parts about the zone's vertices.
+template <typename Point>
+void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, Point point, std::vector<Number>& volumes) {
     for (const std::int32_t id : cavity.cells) {
         const auto& vertex = mesh.cells()[static_cast<std::size_t>(id)].vertex;
         const std::array<ExactVector, 4> p = {point(vertex[0]), point(vertex[1]), point(vertex[2]), point(vertex[3])};
@@ -62,12 +60,24 @@ void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3&
             volumes[cavity.number(vertex[k])] += parts[k];
         }
     }
+}
+
+}  // namespace
+
+void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
+                  NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+    const bool sibson = weighting == NaturalNeighbourOptions::Weighting::sibson;
+    std::vector<Number> volumes(cavity.vertices.size(), Number(0));
+    const auto point = [&](std::int32_t v) { return exact(mesh.points()[static_cast<std::size_t>(v)]) - exact(q); };
+    if (sibson) {
+        add_cells(mesh, cavity, point, volumes);
+    }
     for (const auto& facet : cavity.facets) {
         const auto local = [&](std::size_t k) { return static_cast<std::size_t>(facet.vertex[k]); };
-        const auto p = [&](std::size_t k) { return point(cavity.vertices[local(k)]); };
-        const std::array<ExactVector, 3> corners = {p(0), p(1), p(2)};
-        const auto more = BoundaryFacet<ExactVector, Number>(corners[0], corners[1], corners[2])
-                              .sibson(split(corners[0], corners[1], corners[2]));
+        const auto corner = [&](std::size_t k) { return point(cavity.vertices[local(k)]); };
+        const ExactVector a = corner(0), b = corner(1), c = corner(2);
+        const BoundaryFacet<ExactVector, Number> exact_facet(a, b, c);
+        const auto more = sibson ? exact_facet.sibson(split(a, b, c)) : exact_facet.laplace();
         for (std::size_t k = 0; k < 3; ++k) {
             volumes[local(k)] += more[k];
         }
@@ -81,6 +91,20 @@ void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3&
     for (double& share : shares) {
         share /= total;
     }
+}
+
+std::array<double, 4> exact_barycentric(const std::array<Vec3, 4>& corners, const Vec3& q) {
+    std::array<Number, 4> volumes;
+    Number total = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto p = [&](int i) { return exact(corners[static_cast<std::size_t>(facet_corners[k][i])]) - exact(q); };
+        volumes[k] = dot(p(0), cross(p(1), p(2)));
+        total += volumes[k];
+    }
+    std::array<double, 4> coordinates{};
+    std::transform(volumes.begin(), volumes.end(), coordinates.begin(),
+                   [&](const Number& v) { return CGAL::to_double(Number(v / total)); });
+    return coordinates;
 }
 
 }  // namespace terratet

@@ -2,25 +2,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Natural neighbour weights in 3D (Sibson 1981), computed from the conflict zone of the query in a read-only,
-/// cache-line-per-cell copy of the sites' Delaunay tessellation: nothing is inserted, so queries are const and
-/// parallel.
+/// Natural neighbour weights in 3D, computed from the conflict zone of the query in a read-only, cache-line-per-cell
+/// copy of the sites' Delaunay tessellation: nothing is inserted, so queries are const and parallel.
 ///
-/// The weight of site p is the share of the query's Voronoi cell that would be taken from p's (stolen_volumes.hpp has
-/// the formula). Weights are never negative, so that an estimate lies within the range of its neighbours' values; they
-/// reproduce linear fields; on a site they are that site alone.
+/// Sibson (1981): the weight of site p is the share of the query's Voronoi cell that would be taken from p's.
+/// Laplace (Christ, Friedberg and Lee 1982; Belikov et al. 1997): the area of the face that the query's cell would
+/// share with p's, over their distance. stolen_volumes.hpp has the formulas. Either's weights are never negative, so
+/// that an estimate lies within the range of its neighbours' values; they reproduce linear fields; on a site they are
+/// that site alone. Sibson's estimate has continuous gradients but at the sites, Laplace's is only continuous.
+///
+/// Smooth (Sibson 1981, C1): gradients at the sites, estimated from their neighbours (site_gradients.hpp), make the
+/// estimate's gradient continuous at the sites as well, and reproduce spherical quadratics (a + b·x + c|x|²) inside.
+/// Weights may be negative and estimates leave the values' range. Where the query extrapolates, the gradients' part
+/// fades.
 ///
 /// Eight ghost sites, three diameters outside, make every query bounded. Their share is the extrapolation; the rest is
 /// renormalised. Beyond the ghosts, or where only ghosts are neighbours: the nearest visible site, extrapolation 1.
 ///
-/// Faults: neighbours behind a fault are dropped and the rest renormalised; when all are hidden, the nearest visible
-/// site; when none is visible, no value.
+/// Faults: a neighbour's weight is multiplied by how freely the query sees it (FaultProximity::openness), 0 where a
+/// sheet is in the way, and the rest renormalised; so nothing across a fault counts, and estimates are continuous round
+/// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value.
 ///
 /// Accuracy: a result is accepted if |Σ wᵢpᵢ − q| ≤ 1e-9·R, R the radius of the sphere around the cell that contains
 /// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in rational numbers. Weights::fallback says
 /// so.
 ///
-/// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~700 bytes a site.
+/// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~700 bytes a site. Smooth:
+/// some times that, and 32 bytes more for each pair of neighbours.
 
 #include <memory>
 
@@ -28,10 +36,16 @@
 
 namespace terratet {
 
+struct NaturalNeighbourOptions {
+    enum class Weighting { sibson, laplace };
+    Weighting weighting = Weighting::sibson;
+    bool smooth = false;  ///< \pre only with Sibson's
+};
+
 class NaturalNeighbour final : public Estimator {
   public:
     /// \pre as make_estimator's. O(n log n), about 6 µs a site.
-    NaturalNeighbour(std::vector<Vec3> sites, const FaultProximity* faults);
+    NaturalNeighbour(std::vector<Vec3> sites, const FaultProximity* faults, NaturalNeighbourOptions options = {});
     ~NaturalNeighbour() override;
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;

@@ -10,6 +10,7 @@
 #include <cassert>
 #include <limits>
 
+#include "tess/fault_rims.hpp"
 #include "tess/triangle_grid.hpp"
 
 namespace terratet {
@@ -59,6 +60,7 @@ struct Sheet {
 struct FaultProximity::Impl {
     std::span<const Fault> faults;
     std::vector<std::unique_ptr<const Sheet>> sheets;
+    FaultRims rims;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
     std::vector<double> squared_protection;  ///< of each fault
@@ -80,6 +82,7 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
         impl_->squared_protection.push_back(fault.protection_radius * fault.protection_radius);
         impl_->sheets.push_back(std::make_unique<const Sheet>(fault.sheet));
     }
+    impl_->rims = FaultRims(faults);
     impl_->zone = TriangleGrid(std::move(triangles), reach);
 }
 
@@ -117,6 +120,10 @@ bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t exce
         }
     }
     return false;
+}
+
+double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
+    return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
 }
 
 double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {

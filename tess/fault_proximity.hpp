@@ -35,6 +35,11 @@ class FaultProximity {
     /// Does it meet any fault's sheet, but for `except` (−1: all count)?
     [[nodiscard]] bool crosses_any(const Vec3& a, const Vec3& b, std::int32_t except = -1) const;
 
+    /// How freely a sees b: 0 where the closed segment meets a sheet, else the distance at which it passes the nearest
+    /// free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets a sheet:
+    /// what estimators weigh samples with whose field is to be continuous round a fault's end.
+    [[nodiscard]] double openness(const Vec3& a, const Vec3& b) const;
+
     /// Distance from p to fault f's sheet; infinity for a fault without triangles.
     [[nodiscard]] double distance_to_sheet(std::int32_t fault, const Vec3& p) const;
 

@@ -67,18 +67,52 @@ Number cell_volume(const Delaunay& delaunay, Delaunay::Vertex_handle v) {
     return volume;
 }
 
-}  // namespace
-
-std::vector<SiteWeights> cgal_sibson_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
+/// \param coordinates  of a place: (Delaunay, place, output iterator, norm)
+template <typename Coordinates>
+std::vector<SiteWeights> cgal_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places,
+                                      Coordinates coordinates) {
     const Delaunay delaunay = delaunay_of(sites);
     std::vector<SiteWeights> out;
     for (const Vec3& q : places) {
-        std::vector<std::pair<Delaunay::Vertex_handle, double>> coordinates;
+        std::vector<std::pair<Delaunay::Vertex_handle, double>> found;
         double norm = 0;
-        CGAL::sibson_natural_neighbor_coordinates_3(delaunay, point(q), std::back_inserter(coordinates), norm);
+        coordinates(delaunay, q, std::back_inserter(found), norm);
         SiteWeights& weights = out.emplace_back();
-        for (const auto& [vertex, coordinate] : coordinates) {
+        for (const auto& [vertex, coordinate] : found) {
             weights.push_back({static_cast<std::uint32_t>(vertex->info()), coordinate / norm});
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<SiteWeights> cgal_sibson_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
+    return cgal_weights(sites, places, [](const Delaunay& delaunay, const Vec3& q, auto out, double& norm) {
+        CGAL::sibson_natural_neighbor_coordinates_3(delaunay, point(q), out, norm);
+    });
+}
+
+std::vector<SiteWeights> cgal_laplace_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
+    return cgal_weights(sites, places, [](const Delaunay& delaunay, const Vec3& q, auto out, double& norm) {
+        CGAL::laplace_natural_neighbor_coordinates_3(delaunay, point(q), out, norm);
+    });
+}
+
+std::vector<SiteWeights> cgal_linear_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
+    const Delaunay delaunay = delaunay_of(sites);
+    std::vector<SiteWeights> out;
+    for (const Vec3& q : places) {
+        const auto cell = delaunay.locate(point(q));
+        const auto volume_with = [&](int k) {  // q in place of vertex k
+            const auto p = [&](int i) { return rational(i == k ? point(q) : cell->vertex(i)->point()); };
+            return Number(CGAL::volume(p(0), p(1), p(2), p(3)));
+        };
+        const Number whole = volume_with(4);
+        SiteWeights& weights = out.emplace_back();
+        for (int k = 0; k < 4; ++k) {
+            weights.push_back(
+                {static_cast<std::uint32_t>(cell->vertex(k)->info()), CGAL::to_double(Number(volume_with(k) / whole))});
         }
     }
     return out;
@@ -128,7 +162,7 @@ SiteWeights rational_weights(const std::vector<Vec3>& sites, const Vec3& q) {
     Cavity cavity;
     cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
     std::vector<double> shares;
-    exact_shares(mesh, cavity, q, shares);
+    exact_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::sibson, shares);
     SiteWeights weights;
     for (std::size_t v = 0; v < shares.size(); ++v) {
         if (!mesh.is_ghost(cavity.vertices[v])) {

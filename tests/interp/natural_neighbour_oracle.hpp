@@ -16,6 +16,12 @@ using SiteWeights = std::vector<SiteWeight>;
 /// CGAL::sibson_natural_neighbor_coordinates_3, normalised. \pre places lie well inside the hull
 std::vector<SiteWeights> cgal_sibson_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places);
 
+/// CGAL::laplace_natural_neighbor_coordinates_3, normalised. \pre places lie well inside the hull
+std::vector<SiteWeights> cgal_laplace_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places);
+
+/// Barycentric coordinates in the cell that CGAL's walk ends in. \pre places lie inside the hull
+std::vector<SiteWeights> cgal_linear_weights(const std::vector<Vec3>& sites, const std::vector<Vec3>& places);
+
 /// Voronoi cells and their exact volumes. Its own eight far sites make cells bounded; where they have no share, the
 /// weights are those of the sites alone.
 class ExactVoronoi {

@@ -132,6 +132,16 @@ std::string EstimatorSpec::to_string() const {
     return text;
 }
 
+std::string EstimatorSpec::as_given() const {
+    std::string text = name;
+    for (const auto& option : estimator_method(name).options) {
+        if (const auto found = options.find(option.name); found != options.end()) {
+            text += ":" + option.name + (option.flag ? "" : "=" + found->second);
+        }
+    }
+    return text;
+}
+
 EstimatorSpec parse_estimator(const std::string& text) {
     EstimatorSpec spec;
     spec.name = text.substr(0, text.find(':'));
@@ -174,21 +184,31 @@ bool needs_values(const EstimatorSpec& spec) {
     return spec.name == "kriging" && (open("nugget") || open("sill") || open("range") || open("ratio3"));
 }
 
+VariogramFit fit_variogram(const EstimatorSpec& spec, std::span<const Vec3> places, std::span<const double> values,
+                           std::span<const std::int32_t> boreholes, Kind kind) {
+    VariogramRequest request;
+    if (spec.name == "kriging") {
+        request = {family_of(spec),      value_of(spec, "nu"),  given(spec, "nugget"), given(spec, "sill"),
+                   given(spec, "range"), given(spec, "ratio3"), anisotropy_of(spec)};
+        request.anisotropy.ratio3 = 1;
+        const auto fit = spec.options.find("fit");
+        request.robust = fit == spec.options.end() || fit->second == "robust";
+    }
+    request.categorical = kind == Kind::categorical;
+    std::vector<double> detrended;
+    if (drift_of(spec) == Drift::linear && kind == Kind::continuous) {
+        detrended = without_linear_trend(places, values);
+        values = detrended;
+    }
+    return fit_variogram(places, values, boreholes, request);
+}
+
 EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
                                std::span<const std::int32_t> boreholes, Kind kind) {
     if (!needs_values(spec)) {
         return spec;
     }
-    VariogramRequest request{family_of(spec),      value_of(spec, "nu"),  given(spec, "nugget"), given(spec, "sill"),
-                             given(spec, "range"), given(spec, "ratio3"), anisotropy_of(spec)};
-    request.anisotropy.ratio3 = 1;
-    request.categorical = kind == Kind::categorical;
-    std::vector<double> detrended;
-    if (drift_of(spec) == Drift::linear && kind == Kind::continuous) {
-        detrended = without_linear_trend(sites, values);
-        values = detrended;
-    }
-    const Variogram fit = fit_variogram(sites, values, boreholes, request).variogram;
+    const Variogram fit = fit_variogram(spec, sites, values, boreholes, kind).variogram;
     EstimatorSpec complete = spec;
     complete.options["nugget"] = shortest(fit.nugget);
     complete.options["sill"] = shortest(fit.sill);

@@ -30,6 +30,9 @@ struct EstimatorSpec {
 
     /// With every option that has a default written out: what the model records.
     [[nodiscard]] std::string to_string() const;
+
+    /// With the options that were given alone.
+    [[nodiscard]] std::string as_given() const;
 };
 
 /// Parses and checks names, options and ranges. Throws UsageError that lists what there is.

@@ -145,6 +145,14 @@ const std::vector<EstimatorMethod>& estimator_catalogue() {
                       "by default",
               .lowest = 0,
               .above = true}} +
+             Options{{.name = "fit",
+                      .default_value = "robust",
+                      .unit = "",
+                      .help =
+                          "variogram to fit to: robust (Cressie and Hawkins) or classical; of a category always the "
+                          "classical",
+                      .words = {"robust", "classical"},
+                      .implied = true}} +
              neighbourhood("24") + shares("4", "8") + anisotropy("")},
         {"nearest", "the value of the nearest sample that no fault hides", anisotropy("1")},
     };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/folds.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <map>
@@ -64,7 +66,7 @@ void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& fol
             fold_of[i] = f;
         }
     }
-    for (std::uint32_t f = 0; f < folds.size(); ++f) {
+    const auto leave_out = [&](std::uint32_t f) {
         std::vector<std::uint32_t> kept;
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
             if (fold_of[i] != f) {
@@ -79,11 +81,24 @@ void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& fol
         if (!kept.empty()) {
             make(kept)->weights(queries, weights);
         }
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-            for (auto& term : weights[k].terms) {
+        for (auto& result : weights) {
+            for (auto& term : result.terms) {
                 term.site = kept[term.site];
             }
-            visit(folds[f][k], weights[k]);
+        }
+        return weights;
+    };
+    // Some folds at a time, so that their weights do not pile up.
+    constexpr std::uint32_t at_a_time = 32;
+    const auto count = static_cast<std::uint32_t>(folds.size());
+    for (std::uint32_t begin = 0; begin < count; begin += at_a_time) {
+        std::vector<std::vector<Weights>> results(std::min(at_a_time, count - begin));
+        tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(results.size()),
+                          [&](std::uint32_t k) { results[k] = leave_out(begin + k); });
+        for (std::uint32_t k = 0; k < results.size(); ++k) {
+            for (std::size_t i = 0; i < results[k].size(); ++i) {
+                visit(folds[begin + k][i], results[k][i]);
+            }
         }
     }
 }

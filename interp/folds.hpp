@@ -27,7 +27,8 @@ std::vector<std::vector<std::uint32_t>> folds_of(const Samples& samples, std::sp
 using PartialEstimator = std::function<std::unique_ptr<Estimator>(std::span<const std::uint32_t> kept)>;
 
 /// Calls `visit` with each site and its weights from the sites of all other folds, one at a time, fold by fold; terms
-/// name sites as `sites` does. No terms: the others give no value there. Costs one estimator per fold.
+/// name sites as `sites` does. No terms: the others give no value there. Costs one estimator per fold;
+/// folds run in parallel, `make` must stand that.
 void for_each_left_out(std::span<const Vec3> sites, const std::vector<std::vector<std::uint32_t>>& folds,
                        const PartialEstimator& make,
                        const std::function<void(std::uint32_t site, const Weights& weights)>& visit);

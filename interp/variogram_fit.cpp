@@ -15,6 +15,7 @@ namespace {
 /// Fewer pairs than that say nothing.
 constexpr std::uint64_t pairs_min = 30;
 constexpr std::size_t lags_min = 4;
+constexpr double lags_max = 30;
 constexpr double ratio_min = 0.01;
 constexpr double ratio_max = 100;
 
@@ -110,6 +111,17 @@ double reach_along(const Holes& holes, std::span<const Vec3> places) {
     return lengths.empty() ? 0 : 0.5 * median(lengths);
 }
 
+/// The usual distance from one sample to the next: shorter lags would be empty.
+double spacing_along(const Holes& holes, std::span<const Vec3> places) {
+    std::vector<double> spacings;
+    for (const auto& [hole, samples] : holes) {
+        for (std::size_t i = 1; i < samples.size(); ++i) {
+            spacings.push_back(distance(places[samples[i - 1]], places[samples[i]]));
+        }
+    }
+    return spacings.empty() ? 0 : median(spacings);
+}
+
 /// Are most holes nearer to the vertical than to the horizontal?
 bool steep(const Holes& holes, std::span<const Vec3> places) {
     double down = 0;
@@ -180,18 +192,19 @@ VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double>
     fit.variogram = flat_model(request, 0.25 * box.diagonal());
 
     VariogramOptions options;
-    options.robust = request.robust;
+    options.robust = request.robust && !request.categorical;
     options.categorical = request.categorical;
-    const auto lags = [&](PairKind kind, bool horizontal, double reach) {
+    const auto lags = [&](PairKind kind, bool horizontal, double reach, double least_width) {
         options.pairs = kind;
         options.horizontal = horizontal;
-        options.width = reach / static_cast<double>(options.lags);
+        options.width = std::max(reach / lags_max, least_width);
+        options.lags = static_cast<std::size_t>(std::ceil(reach / std::max(options.width, 1e-300)));
         return reach > 0 ? experimental_variogram(places, values, boreholes, options) : std::vector<Lag>();
     };
-    fit.across = lags(PairKind::other_borehole, true, 0.4 * wide);
+    fit.across = lags(PairKind::other_borehole, true, 0.4 * wide, 0);
     const std::size_t most = options.most_samples;
     options.most_samples = 1000;  // of one hole
-    fit.along = lags(PairKind::same_borehole, false, reach_along(holes, places));
+    fit.along = lags(PairKind::same_borehole, false, reach_along(holes, places), spacing_along(holes, places));
     options.most_samples = most;
 
     const bool free_ratio = !request.ratio3 && request.anisotropy.ratio2 == 1 && request.anisotropy.azimuth_deg == 0 &&
@@ -204,7 +217,8 @@ VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double>
     options.pairs = PairKind::all;
     options.horizontal = false;
     if (const double reach = 0.4 * bounding_box(in_metric).diagonal(); reach > 0) {
-        options.width = reach / static_cast<double>(options.lags);
+        options.width = reach / lags_max;
+        options.lags = static_cast<std::size_t>(lags_max);
         fit.all = experimental_variogram(in_metric, values, boreholes, options);
     }
     const auto all = reliable(fit.all);
@@ -213,6 +227,10 @@ VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double>
         Variogram model =
             fit_model(across, fit.variogram, request.nugget.value_or(down.nugget), request.sill, request.range);
         const Variogram vertical = fit_model(along, fit.variogram, model.nugget, model.sill, {});
+        if (!request.range && model.practical_range() < across.front().distance) {
+            // No pair across is that near, so none tells how far it reaches.
+            model.range = vertical.range;
+        }
         model.anisotropy.ratio3 = std::clamp(vertical.range / model.range, ratio_min, ratio_max);
         fit.variogram = model;
         fit.apart = true;

@@ -3,12 +3,15 @@
 #pragma once
 /// \file
 /// Variogram models from samples. Boreholes are dense along and sparse across, so the two are looked at apart: the
-/// nugget and the short range come from pairs along the holes, sill and horizontal range from pairs across.
+/// nugget and the short range come from pairs along the holes, sill and horizontal range from pairs across. Where those
+/// have reached the sill at their shortest distance already they can't tell a range; that along the holes then holds in
+/// all directions.
 
 #include <optional>
 
 #include "interp/experimental_variogram.hpp"
 #include "interp/variogram.hpp"
+#include "tess/property.hpp"
 
 namespace terratet {
 
@@ -22,7 +25,7 @@ struct VariogramRequest {
     std::optional<double> ratio3{};  ///< vertical range over horizontal
     Anisotropy anisotropy{};         ///< its angles and ratio2; with any of them ratio3 is not fitted: 1 unless given
     bool categorical = false;
-    bool robust = false;
+    bool robust = true;  ///< grades have outliers that swamp the classical variogram; of no effect for categories
 };
 
 struct VariogramFit {
@@ -34,9 +37,14 @@ struct VariogramFit {
 };
 
 /// \param values  in the property's scale, finite. Equal values, or a single one: no nugget, no sill, a range of the
-///                samples' box. Never fails. About 0.2 s for 5000 samples or more.
+///                samples' box. Never fails. About 0.5 s for 5000 samples or more.
 VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double> values,
                            std::span<const std::int32_t> boreholes, const VariogramRequest& request);
+
+/// The same for what a kriging specification leaves open, about a plane where its drift is linear; any other method's:
+/// a spherical model. Values of kind categorical are classes.
+VariogramFit fit_variogram(const struct EstimatorSpec& spec, std::span<const Vec3> places,
+                           std::span<const double> values, std::span<const std::int32_t> boreholes, Kind kind);
 
 /// Weighted least squares with weights pairs/distance² (gstat's default): the best of all ranges, and for each of them
 /// the best nugget and sill not below 0. \pre lags are not empty

@@ -42,5 +42,6 @@ CommandEntry convert_command();
 CommandEntry export_command();
 CommandEntry info_command();
 CommandEntry check_command();
+CommandEntry validate_command();
 
 }  // namespace terratet::tools

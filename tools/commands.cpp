@@ -11,8 +11,8 @@
 namespace terratet::tools {
 
 const std::vector<CommandEntry>& commands() {
-    static const std::vector<CommandEntry> table{build_command(), convert_command(), export_command(), info_command(),
-                                                 check_command()};
+    static const std::vector<CommandEntry> table{build_command(), convert_command(), export_command(),
+                                                 info_command(),  check_command(),   validate_command()};
     return table;
 }
 

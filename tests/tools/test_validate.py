@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cross-validation from the command line: its table, its JSON, its charts."""
+import json
+import unittest
+import xml.etree.ElementTree as xml
+
+from terratet import Case, TWIN, twin_inputs
+
+SITE = ["--boreholes", TWIN / "collar.csv", "--survey", TWIN / "survey.csv", "--log", TWIN / "log.csv",
+        "--property", "K:log10:unit=m/s", "-s_srs", "EPSG:3067"]
+FAST = ["--estimator", "idw", "--estimator", "kriging:model=exponential", "--estimator", "nearest"]
+
+
+class Validate(Case):
+    def test_table_json_and_charts_say_the_same(self):
+        result = self.succeed("validate", *SITE, *FAST, "--report", "v.json", "--plot", "v.svg")
+        report = json.loads((self.folder / "v.json").read_text())
+        self.assertEqual(report["input"]["boreholes"], 4)
+        [k] = report["properties"]
+        self.assertEqual((k["name"], k["unit"], k["samples"]), ("K", "decades", 1292))
+        self.assertEqual([e["estimator"] for e in k["estimators"]], ["idw", "kriging:model=exponential", "nearest"])
+        for e in k["estimators"]:
+            self.assertEqual(e["folds"], 4)
+            self.assertEqual(e["count"] + e["without_value"], 1292)
+            self.assertGreater(e["rmse"], e["mae"])
+            self.assertGreaterEqual(e["within_1.96sd"], e["within_1sd"])
+            row = [line for line in result.stdout.splitlines() if line.split()[:1] == [e["estimator"]]]
+            self.assertEqual(row[0].split()[1], "%.4g" % e["rmse"])
+        self.assertEqual([e["deviation"] for e in k["estimators"]], ["cross-validated", "kriging", "cross-validated"])
+        variogram = k["variogram"]
+        self.assertIn("ratio3=%r" % variogram["ratio3"], k["estimators"][1]["specification"])
+        self.assertTrue(all(lag["pairs"] > 0 for lag in variogram["along"] + variogram["across"]))
+        self.assertIn("Variogram, exponential: nugget", result.stdout)
+        root = xml.parse(self.folder / "v.svg").getroot()
+        titles = [text.text for text in root.iter("{http://www.w3.org/2000/svg}text")]
+        for title in ("K: idw", "K: kriging:model=exponential", "measured K (decades)"):
+            self.assertIn(title, titles)
+
+    def test_a_model_is_validated_as_its_inputs_are_faults_apart(self):
+        inputs = [a for a in twin_inputs() if a != "--faults" and not str(a).endswith("fracture.ts")]
+        self.succeed("build", *inputs, "-o", "m.gpkg")
+        of_model = self.succeed("validate", "m.gpkg", *FAST).stdout
+        self.assertEqual(of_model, self.succeed("validate", *SITE, *FAST, "--threads", "1").stdout)
+        with_fault = self.succeed("validate", *SITE, *FAST, "--faults", TWIN / "fracture.ts").stdout
+        self.assertNotEqual(of_model, with_fault)
+
+    def test_what_cannot_be_done_is_said(self):
+        self.fail_with(2, "validate", *SITE, "--estimator", "krigging", saying="kriging")
+        self.fail_with(2, "validate", *SITE, "--estimator", "kriging:range=-1", saying="above 0")
+        self.fail_with(2, "validate", saying="no input")
+        self.fail_with(3, "validate", "nothing.gpkg", saying="not found")
+
+
+if __name__ == "__main__":
+    unittest.main()

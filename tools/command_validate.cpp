@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include "io/model_store.hpp"
+#include "io/output_file.hpp"
+#include "tess/error.hpp"
+#include "tools/command.hpp"
+#include "tools/progress_display.hpp"
+#include "tools/run_options.hpp"
+#include "tools/session.hpp"
+#include "tools/site_options.hpp"
+#include "tools/validation.hpp"
+#include "tools/version.hpp"
+
+namespace terratet::tools {
+namespace {
+
+/// For estimating no fault need be prepared: its surface is the barrier.
+std::vector<Fault> as_barriers(const Site& site) {
+    std::vector<Fault> faults;
+    for (const Surface& surface : site.surfaces) {
+        if (surface.kind == SurfaceKind::fault) {
+            Fault& fault = faults.emplace_back();
+            fault.name = surface.name;
+            fault.sheet = surface;
+        }
+    }
+    return faults;
+}
+
+class Validate final : public Command {
+  public:
+    Syntax syntax() override {
+        Syntax syntax{"validate", site_options(site_), {"MODEL.gpkg", 0, 1, &models_}};
+        append(syntax, {{"Validation",
+                         {
+                             {{"estimator"},
+                              "SPEC",
+                              "one to try, repeatable; by default natural, idw, kriging, nearest",
+                              &estimators_},
+                             {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
+                             {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
+                         }}});
+        append(syntax, run_options(run_));
+        return syntax;
+    }
+
+    int run(const std::vector<Given>&) override {
+        std::vector<EstimatorSpec> specs;
+        for (const auto& text :
+             estimators_.empty() ? std::vector<std::string>{"natural", "idw", "kriging", "nearest"} : estimators_) {
+            specs.push_back(parse_estimator(text));
+        }
+        for (const auto& path : {plot_, run_.report}) {
+            if (!path.empty() && path != "-") {
+                require_writable(path, run_.overwrite);
+            }
+        }
+        const ThreadLimit threads(run_.threads);
+        Diagnostics diagnostics;
+        Model model;
+        std::vector<PropertyValidation> all;
+        {
+            ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
+            model = input(diagnostics, display.callback());
+            const FaultProximity faults(model.faults);
+            CrossValidationOptions options;
+            options.max_folds = folds_;
+            all = validate_all(model, faults, specs, options, display.callback());
+        }
+        if (all.empty()) {
+            throw InputError("no property has a sample: there is nothing to validate");
+        }
+        if (!plot_.empty()) {
+            write_svg(validation_charts(model, all), plot_, run_.overwrite);
+        }
+        write_json(model, diagnostics, all);
+        if (run_.report != "-") {
+            std::fputs(validation_text(model, all).c_str(), stdout);
+        }
+        if (std::fflush(stdout) != 0) {
+            throw Error("standard output cannot be written to");
+        }
+        return exit_done;
+    }
+
+  private:
+    Model input(Diagnostics& diagnostics, const Progress& progress) const {
+        if (!models_.empty()) {
+            return load_model(models_.front());
+        }
+        Model model;
+        ReadCounts counts;
+        static_cast<Site&>(model) = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
+        merge_coincident(model.samples, model.properties);
+        model.faults = as_barriers(model);
+        return model;
+    }
+
+    void write_json(const Model& model, const Diagnostics& diagnostics, const std::vector<PropertyValidation>& all) {
+        if (run_.report.empty()) {
+            return;
+        }
+        using Json = nlohmann::ordered_json;
+        Json rejected = Json::array();
+        for (const auto& record : diagnostics.rejected) {
+            rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
+        }
+        const Json report{{"terratet", version},
+                          {"input",
+                           {{"boreholes", model.boreholes.size()},
+                            {"samples", model.samples.size()},
+                            {"faults", model.faults.size()},
+                            {"rejected", rejected},
+                            {"notes", diagnostics.notes}}},
+                          {"properties", validation_json(model, all)}};
+        const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        if (run_.report == "-") {
+            std::fputs(text.c_str(), stdout);
+            return;
+        }
+        OutputFile file(run_.report, run_.overwrite);
+        file.write(text);
+        file.commit();
+    }
+
+    SiteArguments site_;
+    RunArguments run_;
+    std::vector<std::string> models_;
+    std::vector<std::string> estimators_;
+    std::string plot_;
+    std::uint64_t folds_ = 0;
+};
+
+}  // namespace
+
+CommandEntry validate_command() {
+    return {
+        "validate",
+        "cross-validation: which estimator suits the data",
+        "[inputs | MODEL.gpkg] [--estimator SPEC …]",
+        "Leaves each borehole out, estimates it from the others, and compares with what was measured: errors, bias, "
+        "rank correlation, and how often the truth lies within the stated uncertainty. Shows each property's "
+        "variogram, along and across the holes.",
+        {"terratet validate site.gpkg --plot site.svg",
+         "terratet validate --boreholes collar.csv --survey survey.csv --log assay.csv \\",
+         "  --property CU --estimator natural --estimator kriging:model=exponential --report cu.json"},
+        [] { return std::make_unique<Validate>(); }};
+}
+
+}  // namespace terratet::tools

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/cavity.hpp"
 
+#include "interp/sphere_tree.hpp"
+
 #include <algorithm>
 
 namespace terratet {
 namespace {
+
+constexpr std::size_t walk_limit = 1000;  // cells; beyond, groups are faster
 
 /// A hint only. Zones are bound by memory: it makes queries a tenth faster.
 void prefetch([[maybe_unused]] const CompactDelaunay::Cell& cell) {
@@ -17,20 +21,25 @@ void prefetch([[maybe_unused]] const CompactDelaunay::Cell& cell) {
 }  // namespace
 
 void Cavity::find(const CompactDelaunay& mesh, const Vec3& q, const CompactDelaunay::Location& at) {
-    grow(mesh, q, at.cell);
+    home = at.cell;
+    if (!grow(mesh, q, home)) {
+        find_by_groups(mesh, q);
+    }
     if (!at.strictly_inside) {
         // Several cells contain q and the walk may end in any of them: start again from the first of the zone.
-        const std::int32_t first = *std::min_element(cells.begin(), cells.end());
-        if (first != cells.front()) {
-            grow(mesh, q, first);
+        const auto all = all_cells(mesh);
+        home = *std::min_element(all.begin(), all.end());
+        if (groups.empty() && home != cells.front()) {
+            grow(mesh, q, home);
         }
     }
     number_vertices(mesh, q);
 }
 
-void Cavity::grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start) {
+bool Cavity::grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start) {
     const auto all = mesh.cells();
     cells.assign(1, start);
+    groups.clear();
     facets.clear();
     inside_.clear(all.size());
     inside_.insert(start);
@@ -54,10 +63,47 @@ void Cavity::grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start
                     continue;
                 }
             }
-            const auto corner = [&](int j) { return cell.vertex[static_cast<std::size_t>(facet_corners[k][j])]; };
-            facets.push_back({{corner(0), corner(1), corner(2)}, mesh.split(cells[i], k)});
+            add_facet(mesh, cells[i], k);
+        }
+        if (cells.size() > walk_limit) {
+            return false;
         }
     }
+    return true;
+}
+
+void Cavity::find_by_groups(const CompactDelaunay& mesh, const Vec3& q) {
+    mesh.sphere_tree().find(mesh, q, groups, cells);
+    facets.clear();
+    inside_.clear(mesh.cells().size());
+    for (const std::int32_t id : cells) {
+        inside_.insert(id);
+    }
+    for (const std::int32_t id : cells) {
+        const auto& cell = mesh.cells()[static_cast<std::size_t>(id)];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::int32_t next = cell.neighbour[k];
+            if (next < 0 ||
+                (!inside_.contains(next) && !mesh.in_conflict(mesh.cells()[static_cast<std::size_t>(next)], q))) {
+                add_facet(mesh, id, k);
+            }
+        }
+    }
+}
+
+void Cavity::add_facet(const CompactDelaunay& mesh, std::int32_t cell, std::size_t k) {
+    const auto& vertex = mesh.cells()[static_cast<std::size_t>(cell)].vertex;
+    const auto corner = [&](int i) { return vertex[static_cast<std::size_t>(facet_corners[k][i])]; };
+    facets.push_back({{corner(0), corner(1), corner(2)}, mesh.split(cell, k)});
+}
+
+std::vector<std::int32_t> Cavity::all_cells(const CompactDelaunay& mesh) const {
+    std::vector<std::int32_t> all = cells;
+    for (const std::uint32_t group : groups) {
+        const auto more = mesh.sphere_tree().cells(group);
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
 }
 
 void Cavity::number_vertices(const CompactDelaunay& mesh, const Vec3& q) {

@@ -22,10 +22,16 @@ namespace terratet {
 
 class Cavity {
   public:
-    /// The order of cells and vertices depends on the place alone, not on where the walk came from. The first cell
+    /// A zone of more than a thousand cells is found through the tessellation's SphereTree, which the first such zone
+    /// builds: then most of its cells are in groups.
+    ///
+    /// The order of cells and vertices depends on the place alone, not on where the walk came from. `home`
     /// contains q, or is the first of the zone where several cells contain q.
     /// \pre q is none of the sites; `at` contains it
     void find(const CompactDelaunay& mesh, const Vec3& q, const CompactDelaunay::Location& at);
+
+    /// All cells, those of the groups as well.
+    [[nodiscard]] std::vector<std::int32_t> all_cells(const CompactDelaunay& mesh) const;
 
     /// The local number of one of the zone's vertices.
     [[nodiscard]] std::size_t number(std::int32_t vertex) const { return static_cast<std::size_t>(numbers_[vertex]); }
@@ -36,13 +42,18 @@ class Cavity {
         std::int32_t split;                  ///< the cell whose centre is its split
     };
 
-    std::vector<std::int32_t> cells;     ///< the zone
+    std::int32_t home = 0;
+    std::vector<std::int32_t> cells;     ///< the zone, but for
+    std::vector<std::uint32_t> groups;   ///< groups of the SphereTree that lie wholly inside; mostly none
     std::vector<Facet> facets;           ///< its boundary
     std::vector<std::int32_t> vertices;  ///< q's natural neighbours, and perhaps some of zero weight
     std::vector<Vec3> points;            ///< theirs, relative to q
 
   private:
-    void grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start);
+    /// \returns false when it gave up, after too many cells
+    bool grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start);
+    void find_by_groups(const CompactDelaunay& mesh, const Vec3& q);
+    void add_facet(const CompactDelaunay& mesh, std::int32_t cell, std::size_t k);
     void number_vertices(const CompactDelaunay& mesh, const Vec3& q);
 
     StampedSet inside_;

@@ -15,6 +15,7 @@
 
 #include "interp/circumsphere.hpp"
 #include "interp/morton.hpp"
+#include "interp/sphere_tree.hpp"
 
 namespace terratet {
 namespace {
@@ -64,6 +65,8 @@ CompactDelaunay::CompactDelaunay(std::span<const Vec3> sites) : points_(sites.be
     bins_box_ = box;
     fill_starts();
 }
+
+CompactDelaunay::~CompactDelaunay() = default;
 
 void CompactDelaunay::copy_tessellation() {
     std::vector<std::pair<Kernel::Point_3, std::int32_t>> numbered;
@@ -219,9 +222,15 @@ bool CompactDelaunay::in_conflict_exact(const Cell& cell, const Vec3& q) const {
     return CGAL::side_of_oriented_sphere(p(0), p(1), p(2), p(3), exact(q)) == CGAL::ON_POSITIVE_SIDE;
 }
 
+const SphereTree& CompactDelaunay::sphere_tree() const {
+    std::call_once(tree_wanted_, [this] { tree_ = std::make_unique<const SphereTree>(*this); });
+    return *tree_;
+}
+
 std::size_t CompactDelaunay::memory_bytes() const {
     return sizeof(*this) + points_.capacity() * sizeof(Vec3) + cells_.capacity() * sizeof(Cell) +
-           parts_.capacity() * sizeof(Parts) + starts_.capacity() * sizeof(std::int32_t);
+           parts_.capacity() * sizeof(Parts) + starts_.capacity() * sizeof(std::int32_t) +
+           (tree_ ? tree_->memory_bytes() : 0);
 }
 
 }  // namespace terratet

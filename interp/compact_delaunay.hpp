@@ -13,6 +13,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,8 @@
 #include "tess/geometry.hpp"
 
 namespace terratet {
+
+class SphereTree;
 
 class CompactDelaunay {
   public:
@@ -47,6 +51,7 @@ class CompactDelaunay {
     /// About 5 µs a site. \pre sites are distinct, acceptable, in Morton order (so that cells come out the same for any
     /// order of rows); fewer than 2^31 cells, which is some 300 million sites.
     explicit CompactDelaunay(std::span<const Vec3> sites);
+    ~CompactDelaunay();
 
     /// The sites, then the ghosts.
     [[nodiscard]] std::span<const Vec3> points() const { return points_; }
@@ -86,6 +91,9 @@ class CompactDelaunay {
         return in_conflict_exact(cell, q);
     }
 
+    /// Its cells by their spheres, for vast conflict zones; built when first asked for.
+    [[nodiscard]] const SphereTree& sphere_tree() const;
+
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
@@ -106,6 +114,9 @@ class CompactDelaunay {
     Box3 bins_box_;
     std::array<std::int32_t, 3> bins_{};
     std::vector<std::int32_t> starts_;  ///< for each bin of a regular grid, the cell at its centre
+
+    mutable std::once_flag tree_wanted_;
+    mutable std::unique_ptr<const SphereTree> tree_;
 };
 
 }  // namespace terratet

@@ -45,7 +45,7 @@ ExactVector split(const ExactVector& a, const ExactVector& b, const ExactVector&
 /// The cells' parts about the zone's vertices.
 template <typename Point>
 void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, Point point, std::vector<Number>& volumes) {
-    for (const std::int32_t id : cavity.cells) {
+    for (const std::int32_t id : cavity.all_cells(mesh)) {
         const auto& vertex = mesh.cells()[static_cast<std::size_t>(id)].vertex;
         const std::array<ExactVector, 4> p = {point(vertex[0]), point(vertex[1]), point(vertex[2]), point(vertex[3])};
         const ExactVector center =

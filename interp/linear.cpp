@@ -21,7 +21,7 @@ std::int32_t first_containing(const CompactDelaunay& mesh, const Vec3& q, const 
     thread_local Cavity cavity;
     cavity.find(mesh, q, at);  // q is on none of their corners, so inside all their spheres
     std::int32_t first = at.cell;
-    for (const std::int32_t id : cavity.cells) {
+    for (const std::int32_t id : cavity.all_cells(mesh)) {
         if (id < first && mesh.contains(mesh.cells()[static_cast<std::size_t>(id)], q)) {
             first = id;
         }

@@ -12,6 +12,7 @@
 #include "interp/query_order.hpp"
 #include "interp/site_gradients.hpp"
 #include "interp/site_mesh.hpp"
+#include "interp/sphere_tree.hpp"
 
 namespace terratet {
 namespace {
@@ -50,6 +51,11 @@ void add_cells(const CompactDelaunay& mesh, Workspace& work) {
             work.shares[work.cavity.number(vertex[k])] += parts[k];
         }
     }
+    for (const std::uint32_t group : work.cavity.groups) {
+        for (const auto& [vertex, sum] : mesh.sphere_tree().sums(group)) {
+            work.shares[work.cavity.number(vertex)] += sum;
+        }
+    }
 }
 void add_boundary(const CompactDelaunay& mesh, const Vec3& q, void (FacetBlock::*terms)(), Workspace& work) {
     const auto& facets = work.cavity.facets;
@@ -86,8 +92,7 @@ bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, NaturalNeighb
     for (double& share : work.shares) {
         share /= total;
     }
-    // Not the cell the walk ended in: on a facet that may be on either side.
-    const auto& home = mesh.cells()[static_cast<std::size_t>(work.cavity.cells.front())];
+    const auto& home = mesh.cells()[static_cast<std::size_t>(work.cavity.home)];
     return acceptable(work, std::sqrt(home.squared_radius));
 }
 

@@ -35,22 +35,30 @@ class StampedSet {
 class StampedMap {
   public:
     void clear(std::size_t size) {
-        known_.clear(size);
-        if (values_.size() < size) {
-            values_.resize(size);
+        if (slots_.size() < size) {
+            slots_.resize(size, Slot{0, 0});
+        }
+        if (++today_ == 0) {
+            std::fill(slots_.begin(), slots_.end(), Slot{0, 0});
+            today_ = 1;
         }
     }
-    [[nodiscard]] bool contains(std::int32_t key) const { return known_.contains(key); }
-    /// \pre contains(key)
-    [[nodiscard]] std::int32_t operator[](std::int32_t key) const { return values_[static_cast<std::size_t>(key)]; }
-    void insert(std::int32_t key, std::int32_t value) {
-        known_.insert(key);
-        values_[static_cast<std::size_t>(key)] = value;
+    [[nodiscard]] bool contains(std::int32_t key) const {
+        return slots_[static_cast<std::size_t>(key)].stamp == today_;
     }
+    /// \pre contains(key)
+    [[nodiscard]] std::int32_t operator[](std::int32_t key) const {
+        return slots_[static_cast<std::size_t>(key)].value;
+    }
+    void insert(std::int32_t key, std::int32_t value) { slots_[static_cast<std::size_t>(key)] = {today_, value}; }
 
   private:
-    StampedSet known_;
-    std::vector<std::int32_t> values_;
+    struct Slot {
+        std::uint32_t stamp;
+        std::int32_t value;
+    };
+    std::vector<Slot> slots_;
+    std::uint32_t today_ = 0;
 };
 
 }  // namespace terratet

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interp/cavity.hpp"
 #include "interp/compact_delaunay.hpp"
 #include "interp/morton.hpp"
 #include "natural_neighbour_oracle.hpp"
@@ -281,6 +282,51 @@ TEST_CASE("Natural neighbour weights equal exact differences of Voronoi volumes 
         CHECK(worst_exact <= 1e-14);  // the fallback's answer, asked for everywhere
     }
     CHECK(compared >= 200);
+}
+
+TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums are the weights") {
+    // Four dense, leaning wells: between two of them lie as many cells as the product of their samples.
+    std::vector<Vec3> sites;
+    for (int w = 0; w < 4; ++w) {
+        const Vec3 collar{100. * (w % 2), 110. * (w / 2), 0};
+        const Vec3 lean{0.05 * (w - 1), 0.08 * (w == 2) - 0.03, -1};
+        for (int i = 0; i < 120; ++i) {
+            sites.push_back(collar + 4.0 * i * lean + Vec3{0, 0, 0.01 * ((7 * i) % 5)});
+        }
+    }
+    std::vector<Vec3> sorted;
+    for (const std::uint32_t i : morton_order(sites)) {
+        sorted.push_back(sites[i]);
+    }
+    const CompactDelaunay mesh(sorted);
+    const NaturalNeighbour estimator(sites, nullptr);
+    Random random(81);
+    std::size_t by_groups = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 q = random.in(bounding_box(sites).grown(i % 2 ? 200 : 0));
+        Cavity cavity;
+        cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
+        by_groups += !cavity.groups.empty();
+        auto found = cavity.all_cells(mesh);
+        std::sort(found.begin(), found.end());
+        std::vector<std::int32_t> expected;
+        for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+            if (mesh.in_conflict(mesh.cells()[c], q)) {
+                expected.push_back(static_cast<std::int32_t>(c));
+            }
+        }
+        REQUIRE(found == expected);
+        REQUIRE(cavity.facets.size() == 2 * cavity.vertices.size() - 4);  // its boundary is a sphere
+        if (i < 4) {
+            auto own = weights_at(estimator, {q}).front();
+            REQUIRE(!own.fallback);
+            for (auto& term : own.terms) {
+                term.weight *= 1 - own.extrapolation;  // as before the ghosts' share was left out
+            }
+            REQUIRE(largest_difference(own.terms, rational_weights(sites, q)) <= 1e-9);
+        }
+    }
+    CHECK(by_groups > 30);
 }
 
 TEST_CASE("Linear fields are reproduced inside the hull") {

@@ -42,6 +42,7 @@ CommandEntry convert_command();
 CommandEntry export_command();
 CommandEntry info_command();
 CommandEntry check_command();
+CommandEntry query_command();
 CommandEntry validate_command();
 
 }  // namespace terratet::tools

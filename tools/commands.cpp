@@ -12,7 +12,7 @@ namespace terratet::tools {
 
 const std::vector<CommandEntry>& commands() {
     static const std::vector<CommandEntry> table{build_command(), convert_command(), export_command(),
-                                                 info_command(),  check_command(),   validate_command()};
+                                                 info_command(),  check_command(),   query_command(), validate_command()};
     return table;
 }
 

@@ -103,6 +103,14 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
     };
 }
 
+ColumnNames column_names(const std::vector<std::string>& texts) {
+    ColumnNames names;
+    for (const auto& text : texts) {
+        names.push_back(parse_column(text));
+    }
+    return names;
+}
+
 SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     SiteInputs inputs;
     std::vector<Source*> all;
@@ -147,9 +155,7 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
         parse_property(property);
     }
     inputs.properties = a.properties;
-    for (const auto& column : a.columns) {
-        inputs.columns.push_back(parse_column(column));
-    }
+    inputs.columns = column_names(a.columns);
     inputs.desurvey = choose<Desurvey>("--desurvey", a.desurvey,
                                        {{"minimum-curvature", Desurvey::minimum_curvature},
                                         {"tangential", Desurvey::tangential},

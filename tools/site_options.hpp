@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/read_site.hpp"
+#include "io/read_table.hpp"
 #include "tools/option.hpp"
 
 namespace terratet::tools {
@@ -35,6 +36,9 @@ struct SiteArguments {
 };
 
 std::vector<OptionGroup> site_options(SiteArguments& arguments);
+
+/// Of --columns MEANING=COLUMN. Throws UsageError.
+ColumnNames column_names(const std::vector<std::string>& texts);
 
 /// Throws UsageError: no input at all, a word that is no choice, --layer, --where or --sql with several inputs.
 SiteInputs site_inputs(const SiteArguments& arguments, bool strict);

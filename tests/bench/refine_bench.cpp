@@ -73,33 +73,50 @@ std::vector<Tool> tools() {
     return all;
 }
 
-/// Finds the volume at which the tool makes `cells` cells within 3 %, in a few tries.
-bool calibrate(Tool& tool, const PointsInBox& task, double cells) {
-    double volume = 1.6 * task.box.volume() / cells;
-    for (int i = 0; i < 5; ++i) {
-        const auto result = tool.run(task, volume);
-        if (!result) {
-            std::printf("%s failed\n", tool.name.c_str());
-            return false;
+/// One run at tool.volume; false when the tool fails.
+bool run_once(Tool& tool, const PointsInBox& task) {
+    const auto result = tool.run(task, tool.volume);
+    if (result) {
+        tool.results.push_back(*result);
+    } else {
+        std::printf("%s failed\n", tool.name.c_str());
+    }
+    return result.has_value();
+}
+
+/// Finds the volume at which the tool makes `cells` cells within 5 %, or as near as a few tries come, the first of them
+/// on a tenth. Leaves one result at that volume, or none when the tool fails.
+void calibrate(Tool& tool, const PointsInBox& task, double cells) {
+    Tool best = tool;
+    double nearest = std::numeric_limits<double>::infinity();
+    tool.volume = 16 * task.box.volume() / cells;
+    for (const double next : {cells / 10, cells, cells, cells, cells}) {
+        tool.results.clear();
+        if (!run_once(tool, task)) {
+            return;
         }
-        tool.volume = volume;
-        const double ratio = static_cast<double>(result->cells) / cells;
-        if (std::abs(ratio - 1) < 0.03) {
+        const auto made = static_cast<double>(tool.results.front().cells);
+        if (const double off = std::abs(std::log(made / cells)); off < nearest) {
+            nearest = off;
+            best = tool;
+        }
+        if (nearest < 0.05) {
             break;
         }
-        volume *= ratio;
+        tool.volume *= made / next;
     }
-    return true;
+    tool = best;
 }
 
 void compare(const PointsInBox& task, double cells, int runs) {
     std::vector<Tool> all = tools();
-    std::erase_if(all, [&](Tool& tool) { return !calibrate(tool, task, cells); });
-    for (int run = 0; run < runs; ++run) {
+    for (Tool& tool : all) {
+        calibrate(tool, task, cells);
+    }
+    std::erase_if(all, [](const Tool& tool) { return tool.results.empty(); });
+    for (int run = 1; run < runs; ++run) {
         for (Tool& tool : all) {
-            if (const auto result = tool.run(task, tool.volume)) {
-                tool.results.push_back(*result);
-            }
+            run_once(tool, task);
         }
     }
     std::printf(

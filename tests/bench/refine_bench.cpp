@@ -85,12 +85,13 @@ bool run_once(Tool& tool, const PointsInBox& task) {
 }
 
 /// Finds the volume at which the tool makes `cells` cells within 5 %, or as near as a few tries come, the first of them
-/// on a tenth. Leaves one result at that volume, or none when the tool fails.
+/// on fewer. Leaves one result at that volume, or none when the tool fails.
 void calibrate(Tool& tool, const PointsInBox& task, double cells) {
     Tool best = tool;
     double nearest = std::numeric_limits<double>::infinity();
-    tool.volume = 16 * task.box.volume() / cells;
-    for (const double next : {cells / 10, cells, cells, cells, cells}) {
+    const double first = std::min(cells, std::max(cells / 10, 1e5));
+    tool.volume = 1.6 * task.box.volume() / first;
+    for (const double next : {first, cells, cells, cells, cells}) {
         tool.results.clear();
         if (!run_once(tool, task)) {
             return;

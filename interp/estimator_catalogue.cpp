@@ -77,7 +77,10 @@ Options anisotropy(const std::string& ratio3) {
         angle("dip", "of the first axis, down from the horizontal"),
         angle("roll", "of the second axis, about the first; 0: horizontal"),
         ratio("ratio2", "1", "range along the second axis over that along the first"),
-        ratio("ratio3", ratio3, "range along the third axis, the vertical unless turned, over that along the first")};
+        ratio("ratio3", ratio3,
+              ratio3.empty() ? "range along the third axis, the vertical unless turned, over that along the first; "
+                               "fitted by default, or 1 where another of these is given"
+                             : "range along the third axis, the vertical unless turned, over that along the first")};
 }
 
 std::string shown(double number) {

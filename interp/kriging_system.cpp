@@ -84,7 +84,9 @@ struct KrigingSystem::Impl {
         weights = k - drifts * multipliers;
         lower.transpose().triangularView<Eigen::Upper>().solveInPlace(weights);
         result.variance = std::max(1 - k.squaredNorm() + of_drift, 0.0);
-        return weights.allFinite() && std::isfinite(result.variance);
+        const double sum = weights.sum();
+        weights /= sum;  // 1 but for rounding
+        return std::abs(sum - 1) < 1e-6 && weights.allFinite() && std::isfinite(result.variance);
     }
 };
 

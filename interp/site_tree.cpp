@@ -8,7 +8,7 @@
 namespace terratet {
 namespace {
 
-constexpr std::size_t leaf_size = 8;
+constexpr std::size_t leaf_size = 12;
 
 }  // namespace
 
@@ -84,9 +84,9 @@ struct NearerFirst {
 class NearestPoints {
   public:
     NearestPoints(std::span<const Vec3> points, std::size_t capacity, double squared_radius,
-                  std::vector<NearSite>& heap)
-        : order_{points}, capacity_(capacity), worst_(squared_radius), heap_(heap) {
-        heap_.clear();
+                  std::vector<NearSite>& found)
+        : order_{points}, capacity_(capacity), worst_(squared_radius), found_(found) {
+        found_.clear();
     }
 
     /// No farther point is wanted. Equal ones may be.
@@ -94,28 +94,47 @@ class NearestPoints {
 
     void offer(double squared_distance, std::uint32_t point) {
         const NearSite candidate{squared_distance, point};
-        if (heap_.size() == capacity_) {
-            if (!order_(candidate, heap_.front())) {
+        if (found_.size() == capacity_) {
+            if (!order_(candidate, capacity_ > few ? found_.front() : found_.back())) {
                 return;
             }
-            std::pop_heap(heap_.begin(), heap_.end(), order_);
-            heap_.back() = candidate;
-        } else {
-            heap_.push_back(candidate);
+            drop_last();
         }
-        std::push_heap(heap_.begin(), heap_.end(), order_);
-        if (heap_.size() == capacity_) {
-            worst_ = heap_.front().squared_distance;
+        found_.push_back(candidate);
+        if (capacity_ > few) {
+            std::push_heap(found_.begin(), found_.end(), order_);
+        } else {
+            auto at = found_.end() - 1;
+            for (; at != found_.begin() && order_(candidate, at[-1]); --at) {
+                *at = at[-1];
+            }
+            *at = candidate;
+        }
+        if (found_.size() == capacity_) {
+            worst_ = (capacity_ > few ? found_.front() : found_.back()).squared_distance;
         }
     }
 
-    void sort() { std::sort_heap(heap_.begin(), heap_.end(), order_); }
+    void sort() {
+        if (capacity_ > few) {
+            std::sort_heap(found_.begin(), found_.end(), order_);
+        }
+    }
 
   private:
+    static constexpr std::size_t few = 48;  ///< up to there a sorted list is faster than a heap
+
+    void drop_last() {
+        if (capacity_ > few) {
+            std::pop_heap(found_.begin(), found_.end(), order_);
+        }
+        found_.pop_back();
+    }
+
     NearerFirst order_;
     std::size_t capacity_;
     double worst_;
-    std::vector<NearSite>& heap_;
+    std::vector<NearSite>& found_;
 };
 
 }  // namespace

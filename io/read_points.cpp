@@ -12,9 +12,11 @@ PointTable read_points(const Source& source, const Frame& frame, const std::stri
     for (const auto& note : table.notes) {
         diagnostics.note(note);
     }
-    const std::string general = source_crs.empty() ? frame.crs_wkt : source_crs;
+    // A local frame has no WKT of its own.
+    const Crs target = frame.crs_wkt.empty() ? parse_crs("local") : crs_from_wkt(frame.crs_wkt);
+    const std::string general = !source_crs.empty() ? source_crs : frame.crs_wkt.empty() ? "local" : frame.crs_wkt;
     PlacedTable placed = place(std::move(table), source, general, columns, diagnostics);
-    to_crs(placed, crs_from_wkt(frame.crs_wkt), diagnostics);
+    to_crs(placed, target, diagnostics);
     for (Vec3& p : placed.points) {
         p = frame.to_local(p);
     }

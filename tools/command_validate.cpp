@@ -96,6 +96,7 @@ class Validate final : public Command {
         Model model;
         ReadCounts counts;
         static_cast<Site&>(model) = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
+        composite_as_asked(model, site_, diagnostics);
         merge_coincident(model.samples, model.properties);
         model.faults = as_barriers(model);
         return model;
@@ -148,7 +149,7 @@ CommandEntry validate_command() {
         "variogram, along and across the holes.",
         {"terratet validate site.gpkg --plot site.svg",
          "terratet validate --boreholes collar.csv --survey survey.csv --log assay.csv \\",
-         "  --property CU --estimator natural --estimator kriging:model=exponential --report cu.json"},
+         "  --property CU --estimator natural --estimator kriging:model=exponential"},
         [] { return std::make_unique<Validate>(); }};
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "interp/estimator_catalogue.hpp"
 #include "tess/error.hpp"
 #include "tools/text.hpp"
 
@@ -18,21 +19,9 @@ struct Topic {
     const char* text;
 };
 
+constexpr const char* estimators_topic = "estimators";
+
 constexpr std::array topics{
-    Topic{"estimators", "how values reach new vertices",
-          R"(Values at new vertices and voxels come from the samples as measured, dropped
-ones included, and never from across a fault.
-
-  natural   (default) Sibson's natural neighbours: smooth, honours the samples,
-            adapts to their density without parameters
-  idw       inverse distance: idw[:power=2][:radius=R][:max_points=12]
-  nearest   the nearest sample that no fault hides; the one for a quick look
-
-A property named with :log10 is estimated as its decimal logarithm, one with
-:categorical gets the class of the largest weight. Beyond the samples' reach
-the column 'extrapolation' rises from 0 to 1; where faults hide every sample
-there is no value.
-)"},
     Topic{"formats", "what is read and written",
           R"(Read
   tables      CSV, XLSX, GeoPackage, Shapefile, PostGIS …: anything GDAL opens.
@@ -88,6 +77,35 @@ out. docs/report.md explains each key.
 )"},
 };
 
+/// From the table that parses them.
+std::string estimators_help() {
+    std::string out =
+        "Values at new vertices, voxels and queries come from the samples as measured,\n"
+        "dropped ones included, and never from across a fault.\n"
+        "--estimator NAME[:option=value]…\n";
+    for (const auto& method : estimator_catalogue()) {
+        const bool first = method.name == estimator_catalogue().front().name;
+        out += fmt::format("\n{:10}{}\n", method.name, wrapped(method.help + (first ? ". The default" : ""), 10, 10));
+        for (const auto& option : method.options) {
+            std::string text = option.help;
+            if (!option.unit.empty()) {
+                text += fmt::format(" [{}]", option.unit);
+            }
+            if (!option.default_value.empty()) {
+                text += ". Default " + option.default_value;
+            }
+            out += fmt::format("  {:14}{}\n", option.name, wrapped(text, 16, 16));
+        }
+    }
+    return out + R"(
+Lengths are in the model's unit. A property named with :log10 is estimated as
+its decimal logarithm, and deviations and variances are in decades; one with
+:categorical gets the likeliest class. 'extrapolation' rises from 0 to 1 beyond
+the samples' reach. Where faults hide every sample there is no value. Which one
+suits the data: terratet validate. docs/estimators.md says more.
+)";
+}
+
 std::string option_lines(const Option& option) {
     constexpr std::size_t column = 26;
     std::string names;
@@ -130,6 +148,7 @@ std::string general_help() {
         out += fmt::format("  {:10}{}\n", entry.name, entry.summary);
     }
     out += "  help      on a command, or a topic:\n";
+    out += fmt::format("    {:12}{}\n", estimators_topic, "how values reach new vertices, with every option");
     for (const auto& topic : topics) {
         out += fmt::format("    {:12}{}\n", topic.name, topic.summary);
     }
@@ -139,7 +158,10 @@ std::string general_help() {
 }
 
 std::string help_on(const std::string& subject) {
-    std::vector<std::string> known;
+    std::vector<std::string> known{estimators_topic};
+    if (subject == estimators_topic) {
+        return estimators_help();
+    }
     for (const auto& topic : topics) {
         if (subject == topic.name) {
             return topic.text;

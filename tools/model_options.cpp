@@ -217,7 +217,8 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
              {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},
              {{"estimator"},
               "SPEC",
-              "natural (default), nearest, idw[:power=2][:radius=R][:max_points=12]",
+              "natural (default), laplace, linear, idw, kriging, nearest, with options as in idw:power=3; see "
+              "'terratet help estimators'",
               &a.estimator},
          }},
     };

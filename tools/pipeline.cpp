@@ -55,6 +55,8 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
                      const Progress& progress, BuildRecord& record) {
     const auto begin = Clock::now();
     Site site = read_site(site_inputs(site_arguments, run.strict), record.diagnostics, record.counts, progress);
+    composite_as_asked(site, site_arguments, record.diagnostics);
+    record.counts.samples = site.samples.size();
     record.seconds["read"] = seconds_since(begin);
 
     BuildOptions options = build_options(arguments, site);

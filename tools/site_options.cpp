@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "interp/composite.hpp"
 #include "io/crs.hpp"
 #include "io/read_table.hpp"
 #include "tess/error.hpp"
@@ -41,6 +42,19 @@ void apply_to_single_input(const SiteArguments& arguments, std::vector<Source*>&
     if (!arguments.sql.empty()) {
         sources.front()->sql = arguments.sql;
     }
+}
+
+double composite_length(const std::string& text, double metres_per_unit) {
+    double length = 0;
+    try {
+        length = parse_length(text, metres_per_unit);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("--composite: {}", error.what()));
+    }
+    if (!(length > 0)) {
+        throw UsageError(fmt::format("--composite: '{}' is not above 0", text));
+    }
+    return length;
 }
 
 void parse_azimuth(const std::string& text, SiteInputs& inputs) {
@@ -95,6 +109,7 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               "K",
               "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged. Default 1",
               &a.z_scale},
+             {{"composite"}, "LENGTH", "bring logs to intervals of this length before all else", &a.composite},
              {{"layer"}, "NAME", "layer of a single input", &a.layer},
              {{"where"}, "SQL", "which rows of a single input", &a.where},
              {{"sql"}, "SQL", "a statement instead of a layer, for a single input", &a.sql},
@@ -170,12 +185,26 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
         parse_length("1" + a.depth_unit, 1.0);
     }
     inputs.depth_unit = a.depth_unit;
+    if (!a.composite.empty()) {
+        composite_length(a.composite, 1.0);
+    }
     if (!(a.z_scale >= 1e-3 && a.z_scale <= 1e3)) {
         throw UsageError(fmt::format("--z-scale: {} is not between 0.001 and 1000", a.z_scale));
     }
     inputs.z_scale = a.z_scale;
     inputs.strict = strict;
     return inputs;
+}
+
+void composite_as_asked(Site& site, const SiteArguments& a, Diagnostics& diagnostics) {
+    if (a.composite.empty()) {
+        return;
+    }
+    const CompositeReport report = composite(site, composite_length(a.composite, site.frame.metres_per_unit));
+    diagnostics.note(
+        fmt::format("{} intervals are composited into {} of {}; {} values over less than half of one are "
+                    "left out",
+                    report.intervals, report.composites, a.composite, report.dropped));
 }
 
 }  // namespace terratet::tools

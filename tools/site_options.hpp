@@ -28,6 +28,7 @@ struct SiteArguments {
     std::string dip_convention = "auto";
     std::string azimuth = "grid";
     std::string depth_unit;
+    std::string composite;
     double z_scale = 1;
     std::string layer;
     std::string where;
@@ -42,5 +43,9 @@ ColumnNames column_names(const std::vector<std::string>& texts);
 
 /// Throws UsageError: no input at all, a word that is no choice, --layer, --where or --sql with several inputs.
 SiteInputs site_inputs(const SiteArguments& arguments, bool strict);
+
+/// Composites the logs if --composite asks for it (interp/composite.hpp), and notes what came of it. Throws UsageError
+/// for what is no length above 0.
+void composite_as_asked(Site& site, const SiteArguments& arguments, Diagnostics& diagnostics);
 
 }  // namespace terratet::tools

@@ -15,6 +15,8 @@ using namespace terratet::testing;
 namespace {
 
 const std::vector<std::string> family = {"natural", "natural:smooth", "laplace", "linear"};
+const std::vector<std::string> by_distance = {"nearest", "idw", "kriging:nugget=0.1:sill=1:range=300:ratio3=1",
+                                              "kriging:drift=linear:nugget=0:sill=1:range=300:ratio3=1"};
 
 std::unique_ptr<Estimator> estimator_of(const std::string& spec, const std::vector<Vec3>& sites,
                                         const FaultProximity* faults = nullptr) {
@@ -252,7 +254,9 @@ TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults h
          }}};
     for (const auto& [name, faults, block] : cases) {
         const FaultProximity proximity(faults);
-        for (const auto& spec : family) {
+        auto everyone = family;
+        everyone.insert(everyone.end(), by_distance.begin(), by_distance.end());
+        for (const auto& spec : everyone) {
             CAPTURE(name, spec);
             const auto weights = weights_at(*estimator_of(spec, sites, &proximity), places);
             std::size_t across_count = 0, empty = 0;
@@ -288,10 +292,12 @@ TEST_CASE("E1: estimates are continuous round the end of a half fault") {
         CHECK(std::abs(value(faces[0], values) - value(faces[1], values)) > 0.01);  // there is a barrier
     }
     // Those that choose sites by their distance jump, by as much however near the places.
-    for (const std::string spec : {"idw", "nearest"}) {
+    for (const auto& spec : by_distance) {
         const auto estimator = estimator_of(spec, sites, &proximity);
-        INFO(spec);
-        CHECK(largest_step(*estimator, values, 32'000) > 1e-3);
+        const double jump = largest_step(*estimator, values, 32'000);
+        const double without = largest_step(*estimator_of(spec, sites), values, 32'000);
+        INFO(spec << ": " << jump << ", and " << without << " without the fault");
+        CHECK(jump > 1e-3);
     }
 }
 

@@ -9,7 +9,7 @@
 namespace terratet {
 namespace {
 
-constexpr std::size_t walk_limit = 1000;  // cells; beyond, groups are faster
+constexpr std::size_t walk_limit = 3000;  // cells; beyond, groups are faster
 
 /// A hint only. Zones are bound by memory: it makes queries a tenth faster.
 void prefetch([[maybe_unused]] const CompactDelaunay::Cell& cell) {

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "interp/huge_pages.hpp"
 #include "interp/stolen_volumes.hpp"
 #include "tess/geometry.hpp"
 
@@ -107,9 +108,9 @@ class CompactDelaunay {
     void fill_starts();
 
     Box3 cube_;
-    std::vector<Vec3> points_;
-    std::vector<Cell> cells_;
-    std::vector<Parts> parts_;  ///< of each cell
+    HugePageVector<Vec3> points_;
+    HugePageVector<Cell> cells_;
+    HugePageVector<Parts> parts_;  ///< of each cell
 
     Box3 bins_box_;
     std::array<std::int32_t, 3> bins_{};

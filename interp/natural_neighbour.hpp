@@ -27,7 +27,7 @@
 /// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in rational numbers. Weights::fallback says
 /// so.
 ///
-/// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~700 bytes a site. Smooth:
+/// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~750 bytes a site. Smooth:
 /// some times that, and 32 bytes more for each pair of neighbours.
 
 #include <memory>

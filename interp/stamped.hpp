@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
+
+#include "interp/huge_pages.hpp"
 
 namespace terratet {
 
@@ -27,7 +28,7 @@ class StampedSet {
     void insert(std::int32_t i) { stamps_[static_cast<std::size_t>(i)] = today_; }
 
   private:
-    std::vector<std::uint32_t> stamps_;
+    HugePageVector<std::uint32_t> stamps_;
     std::uint32_t today_ = 0;
 };
 
@@ -57,7 +58,7 @@ class StampedMap {
         std::uint32_t stamp;
         std::int32_t value;
     };
-    std::vector<Slot> slots_;
+    HugePageVector<Slot> slots_;
     std::uint32_t today_ = 0;
 };
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Sibson weights per second, CGAL's sibson_natural_neighbor_coordinates_3 against NaturalNeighbour on the same sites
-/// and queries in the same run. Both get the queries in Morton order: CGAL one by one, each located from the cell of
-/// the one before (its best case), NaturalNeighbour in blocks of 4096, as model sources ask. Also as they come: single
-/// queries in random order, as refinement asks.
+/// and queries in the same run. CGAL gets the queries in Morton order one by one, each located from the cell of the one
+/// before: its best case. NaturalNeighbour gets them in blocks of 4096, as model sources ask; all at once in random
+/// order, which it sorts itself; and singly in random order, as refinement asks.
 ///
 ///   natural_neighbour_bench [QUERIES=100000]
+///   natural_neighbour_bench --sites FILE SITES     what natural_neighbour_peer.py compares with SciPy: FILE holds
+///                                                  x, y, z as doubles, SITES sites, then the queries; prints rates
+///                                                  of natural, laplace, linear and natural:smooth
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -15,6 +18,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 
 #include "interp/morton.hpp"
 #include "interp/natural_neighbour.hpp"
@@ -83,7 +88,7 @@ struct Own {
     std::size_t fallbacks = 0;
 };
 
-Own own_rate(const NaturalNeighbour& estimator, const std::vector<Vec3>& places, std::size_t batch, double (*clock)()) {
+Own own_rate(const Estimator& estimator, const std::vector<Vec3>& places, std::size_t batch, double (*clock)()) {
     Own own;
     std::vector<ValueQuery> queries;
     for (const Vec3& p : places) {
@@ -109,38 +114,83 @@ Own own_rate(const NaturalNeighbour& estimator, const std::vector<Vec3>& places,
 
 void compare(const char* name, const std::vector<Vec3>& sites, const std::vector<Vec3>& places,
              std::size_t cgal_count) {
-    const double start = wall_s();
+    const double start = cpu_s();
+    const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
     const NaturalNeighbour estimator(sites, nullptr);
-    const double build_s = wall_s() - start;
+    const double build_s = cpu_s() - start;
 
     const auto sorted = morton_sorted(places);
-    Own one;
-    Own single;
-    double cgal = 0;
-    {
-        const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
-        cgal = cgal_rate(sites, sorted, std::min(cgal_count, places.size()));
-        one = own_rate(estimator, sorted, block, cpu_s);
-        single = own_rate(estimator, places, 1, cpu_s);
+    const double cgal = cgal_count > 0 ? cgal_rate(sites, sorted, std::min(cgal_count, places.size())) : 0;
+    const Own one = own_rate(estimator, sorted, block, cpu_s);
+    const Own unsorted = own_rate(estimator, places, places.size(), cpu_s);
+    const Own single = own_rate(estimator, places, 1, cpu_s);
+    std::printf("| %s | %.2f | %.0f | %.1f | ", name, build_s,
+                static_cast<double>(estimator.memory_bytes()) / static_cast<double>(sites.size()), one.neighbours);
+    if (cgal > 0) {
+        std::printf("%.2f k | %.1f k | **%.1f**", cgal / 1000, one.rate / 1000, one.rate / cgal);
+    } else {
+        std::printf(" | %.1f k | ", one.rate / 1000);
     }
-    const Own all = own_rate(estimator, sorted, block, wall_s);
-    std::printf("| %s | %.2f | %.0f | %.1f | %.1f k | %.1f k | **%.1f x** | %.1f k | %.1f k | %zu of %zu |\n", name,
-                build_s, static_cast<double>(estimator.memory_bytes()) / static_cast<double>(sites.size()),
-                one.neighbours, cgal / 1000, one.rate / 1000, one.rate / cgal, single.rate / 1000, all.rate / 1000,
-                one.fallbacks, places.size());
+    std::printf(" | %.2f | %.1f k | %zu of %zu |\n", unsorted.rate / one.rate, single.rate / 1000, one.fallbacks,
+                places.size());
     std::fflush(stdout);
+}
+
+/// Best of several runs in turns: other programs on the machine take the second core more often than the first.
+void threads(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
+    const NaturalNeighbour estimator(sites, nullptr);
+    std::vector<ValueQuery> queries;
+    for (const Vec3& p : morton_sorted(places)) {
+        queries.push_back({p});
+    }
+    std::vector<Weights> weights(queries.size());
+    double best[2] = {1e9, 1e9};
+    for (int i = 0; i < 12; ++i) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1 + i % 2);
+        const double start = wall_s();
+        estimator.weights(queries, weights);
+        best[i % 2] = std::min(best[i % 2], wall_s() - start);
+    }
+    const auto count = static_cast<double>(queries.size());
+    std::printf("\n%zu uniform sites, wall time, best of 6: one thread %.1f k queries/s, two %.1f k, %.2f times\n",
+                sites.size(), count / best[0] / 1000, count / best[1] / 1000, best[0] / best[1]);
+}
+
+/// For the peer: rates of the family on given sites and queries, one thread.
+void rates_on(const std::string& path, std::size_t site_count) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<Vec3> sites, places;
+    for (Vec3 p; file.read(reinterpret_cast<char*>(&p), sizeof p);) {
+        (sites.size() < site_count ? sites : places).push_back(p);
+    }
+    const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
+    for (const char* spec : {"natural", "laplace", "linear", "natural:smooth"}) {
+        const auto estimator = make_estimator(parse_estimator(spec), sites, nullptr);
+        std::printf("%s %.0f\n", spec, own_rate(*estimator, places, block, cpu_s).rate);
+        std::fflush(stdout);
+    }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 4 && std::string(argv[1]) == "--sites") {
+        rates_on(argv[2], std::strtoull(argv[3], nullptr, 10));
+        return 0;
+    }
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000;
     const auto places = random_places(count);
-    std::printf("%zu queries, medians of %d runs; one thread: its CPU time, all threads: wall time\n\n", count,
-                repeats);
+    std::printf("%zu queries, one thread, medians of %d runs by its CPU time\n\n", count, repeats);
     std::printf(
-        "| sites | build, s | bytes/site | neighbours | CGAL, queries/s | ours | ratio | ours, one by one, random "
-        "order | ours, all threads | fallbacks |\n|---|---|---|---|---|---|---|---|---|---|\n");
+        "| sites | build, s | bytes/site | neighbours | CGAL, queries/s | ours | ratio | unsorted / sorted | one by "
+        "one, "
+        "random order | fallbacks |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    compare("1,000 uniform", testing::uniform_sites(1'000), places, 20'000);
+    compare("10,000 uniform", testing::uniform_sites(10'000), places, 20'000);
     compare("100,000 uniform", testing::uniform_sites(100'000), places, 20'000);
+    compare("1,000,000 uniform", testing::uniform_sites(1'000'000), places, 20'000);
     compare("400 wells x 250", testing::borehole_sites(400, 250), places, 2'000);
+    const std::vector<Vec3> few(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count / 50));
+    compare("4 wells x 323", testing::borehole_sites(4, 323), few, 0);
+    threads(testing::uniform_sites(100'000), places);
 }

@@ -242,6 +242,14 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
         flat += is_flat ? 1 : 0;
         bad += is_skinny || is_flat || rule.violation(judged(mesh, mesh.cells[c])) > 1 ? 1 : 0;
         dihedrals.push_back(cells.dihedral_min_deg[c]);
+        if (cells.dihedral_min_deg[c] < model.criteria.dihedral_deg) {
+            ++s.below_dihedral;
+            s.below_dihedral_given += std::ranges::all_of(mesh.cells[c], [&](std::uint32_t v) {
+                return model.vertices[v].role == Role::sample || model.vertices[v].role == Role::seed;
+            });
+        }
+        s.below_v_min +=
+            model.criteria.v_min > 0 && cell_quality(corners(mesh, mesh.cells[c])).volume < model.criteria.v_min;
         for (const auto& [i, j] : cell_edges) {
             const double d = squared_distance(mesh.points[mesh.cells[c][i]], mesh.points[mesh.cells[c][j]]);
             shortest = std::min(shortest, d);

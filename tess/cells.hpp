@@ -47,6 +47,10 @@ struct CellStatistics {
     double edge_min = 0;  ///< of these cells
     double edge_max = 0;
     std::size_t regions = 0;
+
+    std::size_t below_dihedral = 0;        ///< cells that break a clean-up criterion still
+    std::size_t below_dihedral_given = 0;  ///< of these, formed by samples and seeds alone: no vertex may be touched
+    std::size_t below_v_min = 0;
 };
 
 CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells);

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "tess/cells.hpp"
-#include "tess/live_cell.hpp"
 
 namespace terratet {
 
@@ -16,17 +15,13 @@ namespace {
 using delaunay::Cell;
 using delaunay::Facet;
 
-constexpr int candidate_count = 12;
+constexpr int candidate_count = 48;
 constexpr int severity_steps = 1000;
 constexpr std::uint32_t in_hole = 0;
 
 int steps_below(double value, double limit) {
     return limit > 0 && value < limit ? 1 + static_cast<int>((severity_steps - 1) * (1 - std::max(0.0, value) / limit))
                                       : 0;
-}
-
-bool falls(const std::vector<int>& after, const std::vector<int>& before) {
-    return std::ranges::lexicographical_compare(after, before);
 }
 
 }  // namespace
@@ -73,18 +68,39 @@ int CleanUp::severity(const JudgedCell& cell) const {
     return std::max(steps_below(angle, criteria_.dihedral_deg), steps_below(volume, criteria_.v_min));
 }
 
-/// Cells below a clean-up limit with a vertex that may be touched, worst first.
+void CleanUp::add(const JudgedCell& cell, State& state) const {
+    if (const int how_bad = severity(cell); how_bad > 0) {
+        state.severities.push_back(how_bad);
+    }
+    if (gap_fault(cell.vertices, kernel_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
+        return;
+    }
+    if (const Proposal proposal = rule_.propose(cell); proposal.reason == Reason::none) {
+        state.open = true;
+    } else {
+        ++state.blocked;
+    }
+}
+
+bool CleanUp::better(State& after, State& before) const {
+    std::ranges::sort(after.severities, std::greater());
+    std::ranges::sort(before.severities, std::greater());
+    return !after.open && after.blocked <= before.blocked &&
+           std::ranges::lexicographical_compare(after.severities, before.severities);
+}
+
+bool CleanUp::movable(std::uint32_t vertex) const {
+    const Vertex& v = kernel_.vertices[vertex];
+    return v.role == Role::inserted && handles_[vertex] != delaunay::VertexHandle() && !rule_.near_box(v.position);
+}
+
+/// Cells below a clean-up limit, worst first.
 std::vector<CleanUp::Patient> CleanUp::patients() const {
     std::vector<Patient> result;
     for (const auto cell : kernel_.triangulation.finite_cell_handles()) {
-        const bool touchable = std::ranges::any_of(std::array{0, 1, 2, 3}, [&](int k) {
-            return kernel_.vertices[cell->vertex(k)->info()].role == Role::inserted;
-        });
-        if (touchable) {
-            const JudgedCell judged_cell = judged(cell);
-            if (const int how_bad = severity(judged_cell); how_bad > 0) {
-                result.push_back({how_bad, judged_cell.vertices});
-            }
+        const JudgedCell judged_cell = judged(cell);
+        if (const int how_bad = severity(judged_cell); how_bad > 0) {
+            result.push_back({how_bad, judged_cell.vertices});
         }
     }
     std::ranges::sort(result, [](const Patient& a, const Patient& b) {
@@ -93,6 +109,7 @@ std::vector<CleanUp::Patient> CleanUp::patients() const {
     return result;
 }
 
+/// First its own vertices, then those around it: a sliver may hang on the place of a neighbour.
 bool CleanUp::treat(const Patient& patient) {
     for (const std::uint32_t vertex : patient.vertices) {
         if (handles_[vertex] == delaunay::VertexHandle()) {
@@ -109,9 +126,25 @@ bool CleanUp::treat(const Patient& patient) {
                                        l)) {
         return false;
     }
-    return std::ranges::any_of(v, [&](std::uint32_t vertex) {
-        return kernel_.vertices[vertex].role == Role::inserted && mend(vertex, patient);
-    });
+    const auto mends = [&](std::uint32_t vertex) { return movable(vertex) && mend(vertex, patient); };
+    return std::ranges::any_of(v, mends) || std::ranges::any_of(neighbours(patient), mends);
+}
+
+/// All that share an edge with one of the cell's vertices, by index.
+std::vector<std::uint32_t> CleanUp::neighbours(const Patient& patient) const {
+    std::vector<delaunay::VertexHandle> link;
+    for (const std::uint32_t vertex : patient.vertices) {
+        kernel_.triangulation.finite_adjacent_vertices(handles_[vertex], std::back_inserter(link));
+    }
+    std::vector<std::uint32_t> result;
+    for (const auto vertex : link) {
+        if (std::ranges::find(patient.vertices, vertex->info()) == patient.vertices.end()) {
+            result.push_back(vertex->info());
+        }
+    }
+    std::ranges::sort(result);
+    result.erase(std::ranges::unique(result).begin(), result.end());
+    return result;
 }
 
 /// Takes the vertex out and looks whether the hole is better without it, else with it elsewhere; failing both puts it
@@ -119,13 +152,13 @@ bool CleanUp::treat(const Patient& patient) {
 bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
     auto& triangulation = kernel_.triangulation;
     const Vec3 old_place = kernel_.vertices[vertex].position;
-    Severities star_before;
+    State star_before;
     Vec3 centre;
     double reach = std::numeric_limits<double>::infinity();
     std::vector<Cell> star;
     triangulation.finite_incident_cells(handles_[vertex], std::back_inserter(star));
     for (const Cell cell : star) {
-        star_before.push_back(severity(judged(cell)));
+        add(judged(cell), star_before);
     }
     std::vector<delaunay::VertexHandle> link;
     triangulation.finite_adjacent_vertices(handles_[vertex], std::back_inserter(link));
@@ -139,18 +172,11 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
     hole_.clear();
     triangulation.remove_and_give_new_cells(handles_[vertex], std::back_inserter(hole_));
     std::erase_if(hole_, [&](Cell cell) { return triangulation.is_infinite(cell); });
-    Severities without;
-    bool sound = true;
+    State without;
     for (const Cell cell : hole_) {
-        const JudgedCell judged_cell = judged(cell);
-        without.push_back(severity(judged_cell));
-        sound = sound && rule_.violation_in_force(judged_cell) <= 1;
+        add(judged(cell), without);
     }
-    std::ranges::sort(star_before, std::greater());
-    std::ranges::sort(without, std::greater());
-    std::erase(star_before, 0);
-    std::erase(without, 0);
-    if (sound && falls(without, star_before)) {
+    if (better(without, star_before)) {
         handles_[vertex] = {};
         removed_.push_back(vertex);
         ++report_.removed;
@@ -162,8 +188,12 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
         seed[i + 1] = kernel_.vertices[patient.vertices[i]].id;
     }
     BallPoints ball(seed);
-    for (int i = -1; i < candidate_count; ++i) {
-        const Vec3 place = i < 0 ? centre : old_place + reach * (0.1 + 0.8 * i / candidate_count) * ball.next();
+    std::vector<Vec3> places{centre};
+    for (int i = 0; i < candidate_count; ++i) {
+        places.push_back(old_place + reach * (0.1 + 0.8 * i / candidate_count) * ball.next());
+    }
+    add_places_for_hole(ball, places);
+    for (const Vec3& place : places) {
         if (try_place(vertex, frame_.snapped(place), star_before)) {
             ++report_.moved;
             return true;
@@ -174,8 +204,26 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
     return false;
 }
 
+/// Where insertion itself would put a vertex into the hole, and around it.
+void CleanUp::add_places_for_hole(BallPoints& ball, std::vector<Vec3>& places) const {
+    std::vector<JudgedCell> cells;
+    for (const Cell cell : hole_) {
+        cells.push_back(judged(cell));
+    }
+    std::ranges::sort(cells, {}, &JudgedCell::vertices);
+    for (const JudgedCell& cell : cells) {
+        const Proposal proposal = rule_.propose(cell);
+        if (proposal.reason == Reason::none && !proposal.projected && rule_.violation_in_force(cell) > 1) {
+            places.push_back(proposal.point);
+            for (int i = 0; i < 3; ++i) {
+                places.push_back(proposal.point + 0.3 * proposal.radius * ball.next());
+            }
+        }
+    }
+}
+
 /// With the vertex out: puts it at `place` if that is allowed and better than how things were.
-bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severities& star_before) {
+bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& star_before) {
     if (!rule_.allows(place)) {
         return false;
     }
@@ -190,7 +238,7 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severitie
     search_.find(place, start, zone_);
     revalue_(vertex, place);
     const double l_min = rule_.resolution().l_min(place);
-    Severities after;
+    State after;
     for (const Facet& facet : zone_.boundary) {
         std::array<std::pair<std::uint32_t, Vec3>, 4> corners{};
         corners[0] = {vertex, place};
@@ -204,15 +252,14 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severitie
             }
         }
         if (finite) {
-            const JudgedCell fresh = judged(corners);
-            if (rule_.violation_in_force(fresh) > 1) {
+            add(judged(corners), after);
+            if (after.open) {
                 return false;
             }
-            after.push_back(severity(fresh));
         }
     }
     // What stays of the hole counts as new as well; what goes from outside it counts as old.
-    Severities before = star_before;
+    State before = star_before;
     for (const Cell cell : hole_) {
         cell->info().tag = in_hole;
     }
@@ -220,23 +267,16 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const Severitie
         if (cell->info().tag == in_hole) {
             cell->info().tag = delaunay::none;
         } else if (!triangulation.is_infinite(cell)) {
-            before.push_back(severity(judged(cell)));
+            add(judged(cell), before);
         }
     }
-    bool sound = true;
     for (const Cell cell : hole_) {
         if (cell->info().tag == in_hole) {
             cell->info().tag = delaunay::none;
-            const JudgedCell rest = judged(cell);
-            sound = sound && rule_.violation_in_force(rest) <= 1;
-            after.push_back(severity(rest));
+            add(judged(cell), after);
         }
     }
-    std::erase(before, 0);
-    std::erase(after, 0);
-    std::ranges::sort(before, std::greater());
-    std::ranges::sort(after, std::greater());
-    if (!sound || !falls(after, before)) {
+    if (!better(after, before)) {
         return false;
     }
     put(vertex, place);

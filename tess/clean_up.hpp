@@ -5,15 +5,17 @@
 /// Rule 6 of refinement (DESIGN §4.3): what insertion cannot mend, slivers and cells below v_min, is mended by moving
 /// or removing inserted vertices. Samples, seeds and the box's vertices stay. Private to this floor.
 ///
-/// A change is accepted only if the guards of insertion hold, every new cell meets the insertion criteria, and the
-/// sorted list of severities of what it touches falls. Severities are whole numbers, so by the multiset ordering of
-/// Dershowitz and Manna (1979) the sweeps end. Candidates depend on ids and places alone: the last sweep, which accepts
-/// nothing, is the proof that cleaning up again would do nothing either (R7).
+/// A change is accepted only if the guards of insertion hold, it leaves no cell that insertion would have to treat and
+/// no more cells than before that insertion cannot treat, and the sorted list of severities of what it touches falls.
+/// Severities are whole numbers, so by the multiset ordering of Dershowitz and Manna (1979) the sweeps end. Candidates
+/// depend on ids and places alone: the last sweep, which accepts nothing, is the proof that cleaning up again would do
+/// nothing either (R7). Vertices within l_min of the box stay, since cells near it may be untreated because of them.
 
 #include <functional>
 
 #include "tess/conflict_zone.hpp"
 #include "tess/insertion_rule.hpp"
+#include "tess/live_cell.hpp"
 
 namespace terratet {
 
@@ -36,7 +38,12 @@ class CleanUp {
     [[nodiscard]] const std::vector<std::uint32_t>& removed() const { return removed_; }
 
   private:
-    using Severities = std::vector<int>;  ///< falling
+    /// Of some cells: what a change is judged by.
+    struct State {
+        std::vector<int> severities;  ///< falling, without zeros
+        int blocked = 0;              ///< cells that break an insertion criterion and carry a reason why that stays so
+        bool open = false;            ///< some cell breaks an insertion criterion and could be treated
+    };
 
     struct Patient {
         int severity;
@@ -45,9 +52,14 @@ class CleanUp {
 
     std::vector<Patient> patients() const;
     [[nodiscard]] int severity(const JudgedCell& cell) const;
+    void add(const JudgedCell& cell, State& state) const;
+    [[nodiscard]] bool better(State& after, State& before) const;
+    [[nodiscard]] bool movable(std::uint32_t vertex) const;
+    [[nodiscard]] std::vector<std::uint32_t> neighbours(const Patient& patient) const;
     bool treat(const Patient& patient);
     bool mend(std::uint32_t vertex, const Patient& patient);
-    bool try_place(std::uint32_t vertex, const Vec3& place, const Severities& star_before);
+    void add_places_for_hole(BallPoints& ball, std::vector<Vec3>& places) const;
+    bool try_place(std::uint32_t vertex, const Vec3& place, const State& star_before);
     void put(std::uint32_t vertex, const Vec3& place);
 
     Tessellation::Kernel& kernel_;

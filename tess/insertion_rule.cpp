@@ -116,8 +116,7 @@ double InsertionRule::violation_in_force(const JudgedCell& cell) const {
     return worst;
 }
 
-bool InsertionRule::near_face(const Vec3& point) const {
-    const double margin = resolution_.l_min(point) / 2;
+bool InsertionRule::near_face(const Vec3& point, double margin) const {
     for (int axis = 0; axis < 3; ++axis) {
         if (point[axis] < domain_.hull.lo[axis] + margin || point[axis] > domain_.hull.hi[axis] - margin) {
             return true;
@@ -158,7 +157,7 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
 }
 
 bool InsertionRule::allows(const Vec3& point) const {
-    return is_finite(point) && !near_face(point) && (faults_.empty() || faults_.protecting_fault(point) < 0);
+    return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) && (faults_.empty() || faults_.protecting_fault(point) < 0);
 }
 
 }  // namespace terratet

@@ -57,12 +57,15 @@ class InsertionRule {
     /// Rules 2 and 3 for a point near a circumcentre (rule 4): in the box but not on it, outside the faults' zones.
     [[nodiscard]] bool allows(const Vec3& point) const;
 
+    /// Nearer than l_min to the hull box, or on it.
+    [[nodiscard]] bool near_box(const Vec3& point) const { return near_face(point, resolution_.l_min(point)); }
+
     [[nodiscard]] const ResolutionField& resolution() const { return resolution_; }
 
   private:
     [[nodiscard]] double shape_violation(const JudgedCell& cell) const;
     [[nodiscard]] double variation_violation(const JudgedCell& cell) const;
-    [[nodiscard]] bool near_face(const Vec3& point) const;
+    [[nodiscard]] bool near_face(const Vec3& point, double margin) const;
 
     const Criteria& criteria_;
     const Domain& domain_;

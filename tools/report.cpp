@@ -85,24 +85,6 @@ Json refine_json(const RefineReport& report) {
             {"skipped", skipped}};
 }
 
-/// Cells that break a clean-up criterion still: counted so that they are known.
-Json clean_up_json(const Model& model, const Meshed& meshed) {
-    std::size_t below_dihedral = 0;
-    std::size_t below_v_min = 0;
-    for (std::size_t c = 0; c < meshed.mesh.cells.size(); ++c) {
-        if (meshed.cells.region[c] < 0) {
-            continue;
-        }
-        const auto& corners = meshed.mesh.cells[c];
-        const auto& points = meshed.mesh.points;
-        const CellQuality quality =
-            cell_quality({points[corners[0]], points[corners[1]], points[corners[2]], points[corners[3]]});
-        below_dihedral += quality.dihedral_min_deg < model.criteria.dihedral_deg ? 1 : 0;
-        below_v_min += quality.volume < model.criteria.v_min ? 1 : 0;
-    }
-    return {{"dihedral", below_dihedral}, {"vmin", below_v_min}};
-}
-
 Json final_json(const RunRecord& record) {
     const CellStatistics& cells = record.build->report.final;
     const double metres = record.model->frame.metres_per_unit;
@@ -121,7 +103,10 @@ Json final_json(const RunRecord& record) {
             {"fault_crossing_edges", record.build->report.fault_crossing_edges},
             {"delaunay", record.meshed->delaunay},
             {"regions", cells.regions},
-            {"below", clean_up_json(*record.model, *record.meshed)}};
+            {"below",
+             {{"dihedral", cells.below_dihedral},
+              {"dihedral_given", cells.below_dihedral_given},
+              {"vmin", cells.below_v_min}}}};
 }
 
 Json fidelity_json(const RunRecord& record) {

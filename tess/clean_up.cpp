@@ -15,7 +15,9 @@ namespace {
 using delaunay::Cell;
 using delaunay::Facet;
 
-constexpr int candidate_count = 48;
+constexpr int candidate_count = 12;
+constexpr int candidate_count_thorough = 48;
+constexpr std::size_t few_patients = 256;  ///< a thorough sweep costs some 50 ms for each
 constexpr int severity_steps = 1000;
 constexpr std::uint32_t in_hole = 0;
 
@@ -46,16 +48,26 @@ CleanUpReport CleanUp::run() {
         return report_;
     }
     for (bool changed = true; changed;) {
-        changed = false;
-        const auto waiting = patients();
-        for (std::size_t i = 0; i < waiting.size(); ++i) {
-            if (i % 64 == 0) {
-                report_progress(progress_, "clean up", static_cast<double>(i) / static_cast<double>(waiting.size()));
-            }
-            changed = treat(waiting[i]) || changed;
+        thorough_ = false;
+        changed = sweep(patients());
+        if (!changed) {
+            const auto stubborn = patients();
+            thorough_ = true;
+            changed = stubborn.size() <= few_patients && sweep(stubborn);
         }
     }
     return report_;
+}
+
+bool CleanUp::sweep(const std::vector<Patient>& waiting) {
+    bool changed = false;
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+        if (i % 64 == 0) {
+            report_progress(progress_, "clean up", static_cast<double>(i) / static_cast<double>(waiting.size()));
+        }
+        changed = treat(waiting[i]) || changed;
+    }
+    return changed;
 }
 
 int CleanUp::severity(const JudgedCell& cell) const {
@@ -109,7 +121,7 @@ std::vector<CleanUp::Patient> CleanUp::patients() const {
     return result;
 }
 
-/// First its own vertices, then those around it: a sliver may hang on the place of a neighbour.
+/// First its own vertices; in a thorough sweep then those around it, since a sliver may hang on a neighbour's place.
 bool CleanUp::treat(const Patient& patient) {
     for (const std::uint32_t vertex : patient.vertices) {
         if (handles_[vertex] == delaunay::VertexHandle()) {
@@ -127,7 +139,7 @@ bool CleanUp::treat(const Patient& patient) {
         return false;
     }
     const auto mends = [&](std::uint32_t vertex) { return movable(vertex) && mend(vertex, patient); };
-    return std::ranges::any_of(v, mends) || std::ranges::any_of(neighbours(patient), mends);
+    return std::ranges::any_of(v, mends) || (thorough_ && std::ranges::any_of(neighbours(patient), mends));
 }
 
 /// All that share an edge with one of the cell's vertices, by index.
@@ -189,10 +201,13 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
     }
     BallPoints ball(seed);
     std::vector<Vec3> places{centre};
-    for (int i = 0; i < candidate_count; ++i) {
-        places.push_back(old_place + reach * (0.1 + 0.8 * i / candidate_count) * ball.next());
+    const int count = thorough_ ? candidate_count_thorough : candidate_count;
+    for (int i = 0; i < count; ++i) {
+        places.push_back(old_place + reach * (0.1 + 0.8 * i / count) * ball.next());
     }
-    add_places_for_hole(ball, places);
+    if (thorough_) {
+        add_places_for_hole(ball, places);
+    }
     for (const Vec3& place : places) {
         if (try_place(vertex, frame_.snapped(place), star_before)) {
             ++report_.moved;

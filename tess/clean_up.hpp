@@ -9,7 +9,8 @@
 /// no more cells than before that insertion cannot treat, and the sorted list of severities of what it touches falls.
 /// Severities are whole numbers, so by the multiset ordering of Dershowitz and Manna (1979) the sweeps end. Candidates
 /// depend on ids and places alone: the last sweep, which accepts nothing, is the proof that cleaning up again would do
-/// nothing either (R7). Vertices within l_min of the box stay, since cells near it may be untreated because of them.
+/// nothing either (R7). Once it finds nothing and only few cells are left, more is tried for them. Vertices within
+/// l_min of the box stay, since cells near it may be untreated because of them.
 
 #include <functional>
 
@@ -56,6 +57,7 @@ class CleanUp {
     [[nodiscard]] bool better(State& after, State& before) const;
     [[nodiscard]] bool movable(std::uint32_t vertex) const;
     [[nodiscard]] std::vector<std::uint32_t> neighbours(const Patient& patient) const;
+    bool sweep(const std::vector<Patient>& waiting);
     bool treat(const Patient& patient);
     bool mend(std::uint32_t vertex, const Patient& patient);
     void add_places_for_hole(BallPoints& ball, std::vector<Vec3>& places) const;
@@ -74,6 +76,7 @@ class CleanUp {
     CleanUpReport report_;
     std::vector<delaunay::Cell> hole_;  ///< the cells that fill a removed vertex' star
     Zone zone_;
+    bool thorough_ = false;  ///< once an ordinary sweep finds nothing more and few are left: more places, more vertices
 };
 
 }  // namespace terratet

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tess/cells.hpp"
 #include "tess/quality.hpp"
@@ -16,243 +13,10 @@ using namespace terratet;
 using testing::build_world;
 using testing::random_world;
 
-namespace {
-
-constexpr std::uint64_t world_count = 200;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-/// A built world with its flat mesh, for oracles that know nothing of how it was made.
-struct Case {
-    testing::World world;
-    Model model;
-    BuildReport report;
-    TetMesh mesh;
-    CellTable table;
-
-    [[nodiscard]] CellPoints corners(std::size_t c) const {
-        const auto& v = mesh.cells[c];
-        return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
-    }
-};
-
-template <class Check>
-void for_each_world(const Check& check, std::uint64_t count = world_count) {
-    for (std::uint64_t seed = 0; seed < count; ++seed) {
-        Case c;
-        c.world = random_world(seed);
-        INFO(c.world.description);
-        auto built = build_world(c.world);
-        c.model = std::move(built.model);
-        c.report = std::move(built.report);
-        c.mesh = tessellate(c.model).mesh();
-        c.table = describe_cells(c.model, c.mesh);
-        check(c);
-    }
-}
-
-/// The largest |Δf| over its limit along an edge, edges across a fault left out.
-double worst_variation(const Case& c, const FaultProximity& proximity, std::size_t cell) {
-    double worst = 0;
-    for (std::size_t p = 0; p < c.model.criteria.variation.size(); ++p) {
-        const double limit = c.model.criteria.variation[p].df_max;
-        for (const auto& [i, j] : cell_edges) {
-            const auto a = c.mesh.cells[cell][i];
-            const auto b = c.mesh.cells[cell][j];
-            const auto& column = c.model.vertex_values.values[p];
-            if (limit > 0 && !proximity.crosses_any(c.mesh.points[a], c.mesh.points[b])) {
-                worst = std::max(worst, scaled_difference(c.model.properties[p], column[a], column[b]) / limit);
-            }
-        }
-    }
-    return worst;
-}
-
-bool is_good(const Case& c, const FaultProximity& proximity, std::size_t cell) {
-    const Criteria& limits = c.model.criteria;
-    const CellQuality q = cell_quality(c.corners(cell));
-    constexpr double slack = 1 + 1e-9;
-    return q.longest_edge <= limits.l_max * slack &&
-           (limits.radius_edge == 0 || q.radius_edge <= limits.radius_edge * slack) &&
-           (limits.aspect == 0 || q.aspect <= limits.aspect * slack) &&
-           (limits.v_max == 0 || q.volume <= limits.v_max * slack) && worst_variation(c, proximity, cell) <= slack;
-}
-
-CGAL::Epick::Point_3 exact(const Vec3& p) {
-    return {p.x, p.y, p.z};
-}
-
-}  // namespace
-
-TEST_CASE("R1: inserted vertices never exceed the packing bound, and refinement terminates") {
-    for_each_world([](const Case& c) {
-        REQUIRE(static_cast<double>(c.report.refine.inserted) <= c.report.refine.bound);
-        REQUIRE(c.report.refine.bound ==
-                ResolutionField(c.model.criteria, c.model.domain, c.model.faults).packing_bound());
-        REQUIRE(static_cast<std::uint64_t>(std::ranges::count(c.model.vertices, Role::inserted, &Vertex::role)) ==
-                c.report.refine.inserted - c.report.refine.removed);
-    });
-}
-
 TEST_CASE("R1: the bound is the densest packing's in the grown box") {
     // Swollen by a half on all sides, the box of 10³ has 10³ + 6·10²·½ + 3·10·π/4 + π/6.
     const double swollen = 1000 + 300 + 7.5 * M_PI + M_PI / 6;
     CHECK(packing_bound({{0, 0, 0}, {10, 10, 10}}, 1) == std::ceil(std::sqrt(2.0) * swollen));
-}
-
-TEST_CASE("R2: each cell outside the gaps meets every insertion criterion or carries a reason code") {
-    std::size_t excused = 0;
-    for_each_world([&](const Case& c) {
-        const FaultProximity proximity(c.model.faults);
-        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
-            if (c.table.fault[cell] >= 0) {
-                continue;
-            }
-            const bool good = is_good(c, proximity, cell);
-            const Reason reason = c.table.reason[cell];
-            excused += good ? 0 : 1;
-            REQUIRE((good || reason != Reason::none));
-            if (reason == Reason::too_close) {
-                REQUIRE(cell_quality(c.corners(cell)).circumradius < c.model.criteria.l_min + 1e-6);
-            }
-        }
-    });
-    CHECK(excused > 0);
-}
-
-TEST_CASE("R3: no inserted vertex is nearer than l_min to any other vertex") {
-    for_each_world([](const Case& c) {
-        for (const Vertex& a : c.model.vertices) {
-            if (a.role != Role::inserted) {
-                continue;
-            }
-            for (const Vertex& b : c.model.vertices) {
-                if (a.id != b.id && distance(a.position, b.position) < c.model.criteria.l_min) {
-                    FAIL("vertices " << a.id << " and " << b.id << " are " << distance(a.position, b.position)
-                                     << " apart");
-                }
-            }
-        }
-    });
-}
-
-TEST_CASE("R4: with l_max at least 4 l_min no edge exceeds l_max but near faults and in smooth cells") {
-    int promised = 0;
-    for_each_world([&](const Case& c) {
-        if (c.model.criteria.l_max < 4 * c.model.criteria.l_min) {
-            return;
-        }
-        ++promised;
-        const FaultProximity proximity(c.model.faults);
-        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
-            const Circumsphere sphere = circumsphere(c.corners(cell));
-            if (c.table.fault[cell] < 0 && c.table.reason[cell] != Reason::smooth &&
-                c.model.domain.extent.contains(sphere.center) && proximity.protecting_fault(sphere.center) < 0) {
-                REQUIRE(cell_quality(c.corners(cell)).longest_edge <= c.model.criteria.l_max * (1 + 1e-9));
-            }
-        }
-    });
-    CHECK(promised > 30);
-}
-
-TEST_CASE("R5: the tessellation is Delaunay, by brute force over all cells and vertices") {
-    for_each_world(
-        [](const Case& c) {
-            REQUIRE(tessellate(c.model).is_delaunay());
-            if (c.model.vertices.size() > 600) {
-                return;
-            }
-            for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
-                const CellPoints corners = c.corners(cell);
-                const Circumsphere sphere = circumsphere(corners);
-                for (const Vec3& p : c.mesh.points) {
-                    if (squared_distance(p, sphere.center) > sphere.squared_radius * (1 + 1e-3)) {
-                        continue;  // clearly outside; the exact predicate decides the rest
-                    }
-                    REQUIRE(CGAL::side_of_bounded_sphere(exact(corners[0]), exact(corners[1]), exact(corners[2]),
-                                                         exact(corners[3]), exact(p)) != CGAL::ON_BOUNDED_SIDE);
-                }
-            }
-        },
-        60);
-}
-
-TEST_CASE("R6: the result does not depend on the order of rows") {
-    testing::Random random(6);
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        testing::World world = random_world(seed);
-        INFO(world.description);
-        const Model first = build_world(world).model;
-        std::vector<std::uint32_t> order(world.site.samples.size());
-        for (std::uint32_t i = 0; i < order.size(); ++i) {
-            order[i] = i;
-        }
-        for (std::size_t i = order.size(); i > 1; --i) {
-            std::swap(order[i - 1], order[random.below(i)]);
-        }
-        world.site.samples = selected(world.site.samples, order);
-        std::ranges::reverse(world.site.surfaces);
-        const Model second = build_world(world).model;
-        REQUIRE(first.vertices == second.vertices);
-        REQUIRE(first.vertex_values.values.size() == second.vertex_values.values.size());
-        REQUIRE(tessellate(first).mesh().cells == tessellate(second).mesh().cells);
-    }
-}
-
-TEST_CASE("R7: refining a finished model again inserts, moves and removes nothing") {
-    for_each_world([](const Case& c) {
-        Tessellation again = tessellate(c.model);
-        VertexValues values = c.model.vertex_values;
-        const FaultProximity proximity(c.model.faults);
-        const auto report = refine(again, values, c.model.domain, c.model.frame, proximity, c.model.criteria,
-                                   c.model.properties, testing::analytic_field()(c.model, proximity));
-        REQUIRE(report.inserted + report.moved + report.removed == 0);
-    });
-}
-
-TEST_CASE("F1: no edge crosses a fault but between its seeds, in whole models") {
-    std::size_t faults = 0;
-    for_each_world([&](const Case& c) {
-        faults += c.model.faults.size();
-        REQUIRE(c.report.fault_crossing_edges == 0);
-    });
-    CHECK(faults > 50);
-}
-
-TEST_CASE("V1: kept samples carry their measured values") {
-    for_each_world([](const Case& c) {
-        for (std::size_t i = 0; i < c.model.vertices.size(); ++i) {
-            const Vertex& v = c.model.vertices[i];
-            for (std::size_t p = 0; v.role == Role::sample && p < c.model.properties.size(); ++p) {
-                const double measured = c.model.samples.values[p][static_cast<std::size_t>(v.owner)];
-                REQUIRE((std::isnan(measured) || c.model.vertex_values.values[p][i] == measured));
-                REQUIRE(c.model.samples.positions[static_cast<std::size_t>(v.owner)] == v.position);
-            }
-        }
-    });
-}
-
-TEST_CASE("The cells fill the hull box, and every vertex has its values") {
-    for_each_world([](const Case& c) {
-        double volume = 0;
-        for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
-            volume += cell_quality(c.corners(cell)).volume;
-        }
-        REQUIRE(volume == Approx(c.model.domain.hull.volume()).epsilon(1e-9));
-        REQUIRE(c.model.vertex_values.extrapolation.size() == c.model.vertices.size());
-        REQUIRE(c.model.vertex_values.values[0].size() == c.model.vertices.size());
-    });
-}
-
-TEST_CASE("Verification agrees that every guarantee holds") {
-    for_each_world(
-        [](const Case& c) {
-            for (const Verdict& verdict : verify(c.model)) {
-                INFO(verdict.guarantee << ": " << verdict.detail);
-                REQUIRE(verdict.holds);
-            }
-        },
-        60);
 }
 
 TEST_CASE("Verification notices what is broken") {
@@ -314,4 +78,62 @@ TEST_CASE("Refinement can be cancelled") {
     CHECK_THROWS_AS(build(world.site, world.options, testing::analytic_field(), report,
                           [](std::string_view, double) { return false; }),
                     Cancelled);
+}
+
+TEST_CASE("A box with a finer resolution gets shorter edges, and its surroundings keep theirs") {
+    testing::World world = random_world(5);
+    world.site.surfaces.clear();
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    world.options.criteria = {};
+    world.options.criteria.l_min = 25;
+    world.options.criteria.l_max = 100;
+    const Box3 box{{150, 150, -120}, {230, 230, -60}};
+    world.options.criteria.overrides = {{ResolutionOverride::Where::box, box, {}, 6, 24}};
+    const Model model = build_world(world).model;
+    const TetMesh mesh = tessellate(model).mesh();
+    double longest_inside = 0;
+    double longest_outside = 0;
+    for (const auto& cell : mesh.cells) {
+        const CellPoints p{mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
+        const bool inside = std::ranges::all_of(p, [&](const Vec3& q) { return box.contains(q); });
+        double& longest = inside ? longest_inside : longest_outside;
+        longest = std::max(longest, cell_quality(p).longest_edge);
+    }
+    CHECK(longest_inside > 12);
+    CHECK(longest_inside <= 1.2 * 24);  // cells inside with their centre outside are guarded by the coarser l_min
+    CHECK(longest_outside > 60);
+    CHECK(longest_outside <= 100);
+}
+
+TEST_CASE("A fault block with a finer resolution gets shorter edges, up to its fault") {
+    testing::World world = random_world(8);
+    world.site.surfaces = {testing::planar_fault("F", {150, 150, -100}, 20, 70, 400, 400, 20)};
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    world.options.criteria = {};
+    world.options.criteria.l_min = 20;
+    world.options.criteria.l_max = 90;
+    const Vec3 place{40, 150, -100};
+    world.options.criteria.overrides = {{ResolutionOverride::Where::block, {}, place, 10, 40}};
+    const Model model = build_world(world).model;
+    const TetMesh mesh = tessellate(model).mesh();
+    const CellTable table = describe_cells(model, mesh);
+    REQUIRE(table.region_count == 2);
+    std::array<std::size_t, 2> cells{};
+    std::array<std::size_t, 2> above{};
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        if (table.region[c] >= 0) {
+            const auto& v = mesh.cells[c];
+            const CellPoints p{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
+            const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+            const bool fine = !model.faults.empty() && !FaultProximity(model.faults).crosses_any(middle, place);
+            ++cells[static_cast<std::size_t>(fine)];
+            above[static_cast<std::size_t>(fine)] += cell_quality(p).longest_edge > 40;
+        }
+    }
+    CHECK(above[1] * 10 < cells[1]);      // but where the fault or the box forbids
+    CHECK(above[0] * 10 > cells[0] * 2);  // the other block has its own
+    CHECK(cells[1] > 2 * cells[0]);
+
+    world.options.criteria.overrides[0].point = {150, 150, -100};  // on the fault
+    CHECK_THROWS_WITH(build_world(world), Catch::Contains("fault block"));
 }

@@ -136,3 +136,22 @@ TEST_CASE("Criteria that contradict each other are refused") {
     CHECK_THROWS_AS(validate(broken([](Criteria& c) { c.variation = {{2, 1}}; })), UsageError);
     CHECK_THROWS_AS(validate(broken([](Criteria& c) { c.v_max = -1; })), UsageError);
 }
+
+TEST_CASE("A frame with stretched z brings snapped points back to the very same doubles") {
+    testing::Random random(31);
+    for (const double scale : {1.0, 2.0, 3.0, 7.5, 10.0, 49.0, 250.0, 0.1, 1 / 3.0}) {
+        for (const double origin : {0.0, 1024.0, -4096.0}) {
+            Frame frame;
+            frame.origin = {525312, 6792192, origin};
+            frame.z_scale = scale;
+            for (int i = 0; i < 2000; ++i) {
+                const Vec3 world{random(524000, 527000), random(6790000, 6794000), origin + random(-900, 900)};
+                const Vec3 local = frame.snapped(frame.to_local(world));
+                REQUIRE(frame.snapped(local) == local);
+                REQUIRE(frame.to_local(frame.to_world(local)) == local);
+                REQUIRE(distance(frame.to_world(local), world) < 1e-9);
+                REQUIRE(std::abs(local.z - scale * (world.z - origin)) < 1e-9 * scale);
+            }
+        }
+    }
+}

@@ -8,18 +8,23 @@ namespace terratet::testing {
 
 namespace {
 
+double field(const Vec3& p) {
+    return std::sin(p.x / 60) + p.y / 200 + (p.z > -100 ? 1 : 0);
+}
+
+/// The field's value, or its class.
+double value_of(const Property& property, double value) {
+    return property.kind != Kind::categorical ? value : std::isnan(value) ? missing : std::floor(value + 1);
+}
+
 void add(Site& site, const Vec3& p, std::int32_t borehole, double depth, double value) {
     Samples& samples = site.samples;
     samples.positions.push_back(site.frame.snapped(p));
     samples.borehole.push_back(borehole);
     samples.depth.push_back(depth);
     samples.length.push_back(0);
-    samples.values[0].push_back(value);
+    samples.values[0].push_back(value_of(site.properties[0], value));
     samples.values[1].push_back(std::pow(10.0, -10 + value));
-}
-
-double field(const Vec3& p) {
-    return std::sin(p.x / 60) + p.y / 200 + (p.z > -100 ? 1 : 0);
 }
 
 void add_wells(Site& site, Random& random, int wells) {
@@ -27,7 +32,13 @@ void add_wells(Site& site, Random& random, int wells) {
     for (std::int32_t well = 0; well < wells; ++well) {
         const bool clustered = random() < 0.3;  // a few metres from the one before
         centre = clustered ? centre + Vec3{random(-4, 4), random(-4, 4), 0} : random.in({{20, 20, 0}, {280, 280, 0}});
-        const Vec3 lean{random(-0.4, 0.4), random(-0.4, 0.4), -1};
+        Vec3 lean{random(-0.4, 0.4), random(-0.4, 0.4), -1};
+        if (well > 0 && random() < 0.2) {  // drilled through the one before
+            const auto& path = site.boreholes.back().path;
+            const Vec3 towards = path[path.size() / 2] - centre;
+            lean = towards / std::max(1.0, std::abs(towards.z));
+            lean.z = -1;
+        }
         Borehole borehole;
         borehole.id = "W" + std::to_string(well);
         borehole.collar = site.frame.snapped(centre);
@@ -114,7 +125,11 @@ World random_world(std::uint64_t seed) {
     Site& site = world.site;
     site.frame.crs_name = "made up";
     site.frame.origin = {525312, 6792192, 0};
-    site.properties = {parse_property("T"), parse_property("K:log10")};
+    const bool classes = random() < 0.15;
+    site.properties = {parse_property(classes ? "T:categorical" : "T"), parse_property("K:log10")};
+    if (classes) {
+        site.properties[0].classes = {"clay", "sand", "gravel", "till", "rock"};
+    }
     site.samples.values.resize(2);
     BuildOptions& options = world.options;
     options.extent = {{0, 0, -200}, {300, 300, 0}};
@@ -127,9 +142,11 @@ World random_world(std::uint64_t seed) {
     }
     const double l_min = random(18, 40);
     options.criteria.l_min = l_min;
-    options.criteria.l_max = l_min * random(1.5, 6);
-    options.criteria.radius_edge = random() < 0.2 ? 0 : random(1.1, 3);
-    options.criteria.aspect = random() < 0.2 ? 0 : random(4, 12);
+    options.criteria.l_max = l_min * (random() < 0.1 ? 1 : random(1.5, 6));
+    options.criteria.radius_edge = random() < 0.2 ? 0 : random() < 0.1 ? 1 : random(1.1, 3);
+    options.criteria.aspect = random() < 0.2 ? 0 : random() < 0.1 ? 3 : random(4, 12);
+    options.criteria.dihedral_deg = random() < 0.2 ? random(0, 15) : 5;
+    options.criteria.v_min = random() < 0.2 ? std::pow(random(0.1, 0.5) * l_min, 3) : 0;
     options.criteria.v_max = random() < 0.3 ? std::pow(random(l_min, 4 * l_min), 3) / 8 : 0;
     if (random() < 0.4) {
         options.criteria.variation = {{random() < 0.5 ? 0.05 : 0, random(0.2, 2)}, {0, random(0.2, 2)}};
@@ -146,6 +163,15 @@ World random_world(std::uint64_t seed) {
     if (random() < 0.2 && site.samples.size() > 4) {
         options.extent = {};
         world.description += ", own extent";
+    } else if (random() < 0.25) {
+        for (int part = 0; part < 2; ++part) {  // the second may overlap the first, and both may be coarser
+            const Vec3 corner = random.in({{0, 0, -200}, {200, 200, -100}});
+            const Vec3 size = random.in({{20, 20, 20}, {100, 100, 100}});
+            const double finer = random(0.4, 1.6) * l_min;
+            options.criteria.overrides.push_back(
+                {ResolutionOverride::Where::box, {corner, corner + size}, {}, finer, finer * random(1, 6)});
+        }
+        world.description += ", other resolutions";
     }
     world.description = "seed " + std::to_string(seed) + ": " + world.description;
     return world;
@@ -153,12 +179,12 @@ World random_world(std::uint64_t seed) {
 
 ValueSourceFactory analytic_field() {
     return [](const Model& model, const FaultProximity&) -> ValueSource {
-        const std::size_t properties = model.properties.size();
-        return [properties](std::span<const ValueQuery> queries) {
-            ValueBatch batch{std::vector<std::vector<double>>(properties), std::vector<double>(queries.size(), 0)};
+        return [properties = model.properties](std::span<const ValueQuery> queries) {
+            ValueBatch batch{std::vector<std::vector<double>>(properties.size()),
+                             std::vector<double>(queries.size(), 0)};
             for (const ValueQuery& query : queries) {
-                for (std::size_t p = 0; p < properties; ++p) {
-                    batch.values[p].push_back(p == 0 ? field(query.position)
+                for (std::size_t p = 0; p < properties.size(); ++p) {
+                    batch.values[p].push_back(p == 0 ? value_of(properties[0], field(query.position))
                                                      : std::pow(10.0, -10 + field(query.position)));
                 }
             }

@@ -17,7 +17,7 @@ using delaunay::Facet;
 
 constexpr int candidate_count = 12;
 constexpr int candidate_count_thorough = 48;
-constexpr std::size_t few_patients = 256;  ///< a thorough sweep costs some 50 ms for each
+constexpr std::size_t few_patients = 32;  ///< a thorough sweep takes some 30 ms for each
 constexpr int severity_steps = 1000;
 constexpr std::uint32_t in_hole = 0;
 
@@ -47,19 +47,29 @@ CleanUpReport CleanUp::run() {
     if (kernel_.triangulation.dimension() < 3) {
         return report_;
     }
-    for (bool changed = true; changed;) {
+    std::vector<Patient> all = all_patients();
+    for (bool settled = false; !settled;) {
         thorough_ = false;
-        changed = sweep(patients());
-        if (!changed) {
-            const auto stubborn = patients();
+        settled = !sweep(all);
+        while (!changed_.empty()) {  // what a change touched may be mended now; the others are asked again at the end
+            all = patients_after(all);
+            std::vector<Patient> touched;
+            std::ranges::copy_if(all, std::back_inserter(touched), [&](const Patient& patient) {
+                return std::ranges::any_of(patient.vertices, [&](std::uint32_t v) { return changed_.contains(v); });
+            });
+            sweep(touched);
+        }
+        if (settled && all.size() <= few_patients) {
             thorough_ = true;
-            changed = stubborn.size() <= few_patients && sweep(stubborn);
+            settled = !sweep(all);
+            all = patients_after(all);
         }
     }
     return report_;
 }
 
 bool CleanUp::sweep(const std::vector<Patient>& waiting) {
+    changed_.clear();
     bool changed = false;
     for (std::size_t i = 0; i < waiting.size(); ++i) {
         if (i % 64 == 0) {
@@ -71,7 +81,7 @@ bool CleanUp::sweep(const std::vector<Patient>& waiting) {
 }
 
 int CleanUp::severity(const JudgedCell& cell) const {
-    if (gap_fault(cell.vertices, kernel_.vertices) >= 0) {
+    if (gap_fault(cell.vertices, kernel_.vertices) >= 0 || rule_.smooth(cell)) {
         return 0;
     }
     const double angle = std::acos(sharpest_dihedral_cosine(cell.points)) * 180 / std::numbers::pi;
@@ -107,7 +117,7 @@ bool CleanUp::movable(std::uint32_t vertex) const {
 }
 
 /// Cells below a clean-up limit, worst first.
-std::vector<CleanUp::Patient> CleanUp::patients() const {
+std::vector<CleanUp::Patient> CleanUp::all_patients() const {
     std::vector<Patient> result;
     for (const auto cell : kernel_.triangulation.finite_cell_handles()) {
         const JudgedCell judged_cell = judged(cell);
@@ -115,31 +125,67 @@ std::vector<CleanUp::Patient> CleanUp::patients() const {
             result.push_back({how_bad, judged_cell.vertices});
         }
     }
-    std::ranges::sort(result, [](const Patient& a, const Patient& b) {
-        return a.severity != b.severity ? a.severity > b.severity : a.vertices < b.vertices;
-    });
+    std::sort(result.begin(), result.end());
     return result;
 }
 
-/// First its own vertices; in a thorough sweep then those around it, since a sliver may hang on a neighbour's place.
-bool CleanUp::treat(const Patient& patient) {
-    for (const std::uint32_t vertex : patient.vertices) {
-        if (handles_[vertex] == delaunay::VertexHandle()) {
-            return false;  // removed meanwhile, and the cell with it
+/// The same, known what they were before the last sweep: those left of them, and those among the cells since then.
+std::vector<CleanUp::Patient> CleanUp::patients_after(const std::vector<Patient>& before) const {
+    std::vector<Patient> result;
+    std::ranges::copy_if(before, std::back_inserter(result), [&](const Patient& p) { return cell_of(p).has_value(); });
+    std::vector<Cell> cells;
+    for (const std::uint32_t vertex : changed_) {
+        if (handles_[vertex] != delaunay::VertexHandle()) {
+            kernel_.triangulation.finite_incident_cells(handles_[vertex], std::back_inserter(cells));
         }
     }
+    for (const Cell cell : cells) {
+        const JudgedCell judged_cell = judged(cell);
+        if (const int how_bad = severity(judged_cell); how_bad > 0) {
+            result.push_back({how_bad, judged_cell.vertices});
+        }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::ranges::unique(result).begin(), result.end());
+    return result;
+}
+
+std::optional<Cell> CleanUp::cell_of(const Patient& patient) const {
     const auto& v = patient.vertices;
+    for (const std::uint32_t vertex : v) {
+        if (handles_[vertex] == delaunay::VertexHandle()) {
+            return std::nullopt;  // removed meanwhile, and the cell with it
+        }
+    }
     Cell cell;
     int i = 0;
     int j = 0;
     int k = 0;
     int l = 0;
-    if (!kernel_.triangulation.is_cell(handles_[v[0]], handles_[v[1]], handles_[v[2]], handles_[v[3]], cell, i, j, k,
-                                       l)) {
+    const bool exists =
+        kernel_.triangulation.is_cell(handles_[v[0]], handles_[v[1]], handles_[v[2]], handles_[v[3]], cell, i, j, k, l);
+    return exists ? std::optional(cell) : std::nullopt;
+}
+
+/// A cell that a change made has a vertex among these, or had one.
+void CleanUp::note_change(const std::vector<Cell>& cells) {
+    for (const Cell cell : cells) {
+        for (int k = 0; k < 4; ++k) {
+            if (!kernel_.triangulation.is_infinite(cell->vertex(k))) {
+                changed_.insert(cell->vertex(k)->info());
+            }
+        }
+    }
+}
+
+/// First its own vertices; in a thorough sweep then those around it, since a sliver may hang on a neighbour's place.
+bool CleanUp::treat(const Patient& patient) {
+    if (!cell_of(patient)) {
         return false;
     }
     const auto mends = [&](std::uint32_t vertex) { return movable(vertex) && mend(vertex, patient); };
-    return std::ranges::any_of(v, mends) || (thorough_ && std::ranges::any_of(neighbours(patient), mends));
+    return std::ranges::any_of(patient.vertices, mends) ||
+           (thorough_ && std::ranges::any_of(neighbours(patient), mends));
 }
 
 /// All that share an edge with one of the cell's vertices, by index.
@@ -189,6 +235,7 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
         add(judged(cell), without);
     }
     if (better(without, star_before)) {
+        note_change(hole_);
         handles_[vertex] = {};
         removed_.push_back(vertex);
         ++report_.removed;
@@ -294,6 +341,9 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
     if (!better(after, before)) {
         return false;
     }
+    note_change(hole_);
+    note_change(zone_.cells);
+    changed_.insert(vertex);
     put(vertex, place);
     return true;
 }

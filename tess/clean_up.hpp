@@ -13,6 +13,8 @@
 /// l_min of the box stay, since cells near it may be untreated because of them.
 
 #include <functional>
+#include <optional>
+#include <set>
 
 #include "tess/conflict_zone.hpp"
 #include "tess/insertion_rule.hpp"
@@ -49,9 +51,17 @@ class CleanUp {
     struct Patient {
         int severity;
         std::array<std::uint32_t, 4> vertices;
+
+        friend bool operator==(const Patient&, const Patient&) = default;
+        friend bool operator<(const Patient& a, const Patient& b) {  // worst first
+            return a.severity != b.severity ? a.severity > b.severity : a.vertices < b.vertices;
+        }
     };
 
-    std::vector<Patient> patients() const;
+    [[nodiscard]] std::vector<Patient> all_patients() const;
+    [[nodiscard]] std::vector<Patient> patients_after(const std::vector<Patient>& before) const;
+    [[nodiscard]] std::optional<delaunay::Cell> cell_of(const Patient& patient) const;
+    void note_change(const std::vector<delaunay::Cell>& cells);
     [[nodiscard]] int severity(const JudgedCell& cell) const;
     void add(const JudgedCell& cell, State& state) const;
     [[nodiscard]] bool better(State& after, State& before) const;
@@ -76,6 +86,7 @@ class CleanUp {
     CleanUpReport report_;
     std::vector<delaunay::Cell> hole_;  ///< the cells that fill a removed vertex' star
     Zone zone_;
+    std::set<std::uint32_t> changed_;  ///< vertices of all cells that came with the sweep's changes
     bool thorough_ = false;  ///< once an ordinary sweep finds nothing more and few are left: more places, more vertices
 };
 

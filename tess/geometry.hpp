@@ -90,6 +90,10 @@ struct Box3 {
     [[nodiscard]] bool contains(const Vec3& p) const {
         return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
     }
+    /// The nearest point of the box.
+    [[nodiscard]] Vec3 clamped(const Vec3& p) const {
+        return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y), std::clamp(p.z, lo.z, hi.z)};
+    }
     void extend(const Vec3& p) {
         for (int axis = 0; axis < 3; ++axis) {
             lo[axis] = std::min(lo[axis], p[axis]);

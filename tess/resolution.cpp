@@ -135,11 +135,8 @@ double ResolutionField::largest_l_min() const {
 double ResolutionField::packing_bound() const {
     double bound = terratet::packing_bound(domain_.hull, criteria_.l_min);
     for (const ResolutionOverride& part : criteria_.overrides) {
-        Box3 box = domain_.hull;
-        for (int axis = 0; axis < 3 && part.where == Where::box; ++axis) {
-            box.lo[axis] = std::clamp(part.box.lo[axis], domain_.hull.lo[axis], domain_.hull.hi[axis]);
-            box.hi[axis] = std::clamp(part.box.hi[axis], domain_.hull.lo[axis], domain_.hull.hi[axis]);
-        }
+        const Box3& hull = domain_.hull;
+        const Box3 box = part.where == Where::box ? Box3{hull.clamped(part.box.lo), hull.clamped(part.box.hi)} : hull;
         bound += terratet::packing_bound(box, part.l_min);
     }
     return bound;

@@ -140,7 +140,7 @@ World random_world(std::uint64_t seed) {
         add_wells(site, random, static_cast<int>(random(1, 8)));
         world.description = "wells";
     }
-    const double l_min = random(18, 40);
+    const double l_min = random(24, 50);
     options.criteria.l_min = l_min;
     options.criteria.l_max = l_min * (random() < 0.1 ? 1 : random(1.5, 6));
     options.criteria.radius_edge = random() < 0.2 ? 0 : random() < 0.1 ? 1 : random(1.1, 3);
@@ -166,8 +166,8 @@ World random_world(std::uint64_t seed) {
     } else if (random() < 0.25) {
         for (int part = 0; part < 2; ++part) {  // the second may overlap the first, and both may be coarser
             const Vec3 corner = random.in({{0, 0, -200}, {200, 200, -100}});
-            const Vec3 size = random.in({{20, 20, 20}, {100, 100, 100}});
-            const double finer = random(0.4, 1.6) * l_min;
+            const Vec3 size = random.in({{20, 20, 20}, {80, 80, 80}});
+            const double finer = random(0.5, 1.6) * l_min;
             options.criteria.overrides.push_back(
                 {ResolutionOverride::Where::box, {corner, corner + size}, {}, finer, finer * random(1, 6)});
         }

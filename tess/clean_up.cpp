@@ -47,7 +47,12 @@ CleanUpReport CleanUp::run() {
     if (kernel_.triangulation.dimension() < 3) {
         return report_;
     }
-    std::vector<Patient> all = all_patients();
+    std::vector<Cell> cells;
+    for (const Cell cell : kernel_.triangulation.finite_cell_handles()) {
+        cells.push_back(cell);
+    }
+    std::vector<Patient> all = below_limits(cells);
+    cells = {};
     for (bool settled = false; !settled;) {
         thorough_ = false;
         settled = !sweep(all);
@@ -116,29 +121,25 @@ bool CleanUp::movable(std::uint32_t vertex) const {
     return v.role == Role::inserted && handles_[vertex] != delaunay::VertexHandle() && !rule_.near_box(v.position);
 }
 
-/// Cells below a clean-up limit, worst first.
-std::vector<CleanUp::Patient> CleanUp::all_patients() const {
-    std::vector<Patient> result;
-    for (const auto cell : kernel_.triangulation.finite_cell_handles()) {
-        const JudgedCell judged_cell = judged(cell);
-        if (const int how_bad = severity(judged_cell); how_bad > 0) {
-            result.push_back({how_bad, judged_cell.vertices});
-        }
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 /// The same, known what they were before the last sweep: those left of them, and those among the cells since then.
 std::vector<CleanUp::Patient> CleanUp::patients_after(const std::vector<Patient>& before) const {
-    std::vector<Patient> result;
-    std::ranges::copy_if(before, std::back_inserter(result), [&](const Patient& p) { return cell_of(p).has_value(); });
     std::vector<Cell> cells;
+    for (const Patient& patient : before) {
+        if (const auto cell = cell_of(patient)) {
+            cells.push_back(*cell);  // the same vertices, but one of them may have moved
+        }
+    }
     for (const std::uint32_t vertex : changed_) {
         if (handles_[vertex] != delaunay::VertexHandle()) {
             kernel_.triangulation.finite_incident_cells(handles_[vertex], std::back_inserter(cells));
         }
     }
+    return below_limits(cells);
+}
+
+/// Each once, worst first.
+std::vector<CleanUp::Patient> CleanUp::below_limits(const std::vector<Cell>& cells) const {
+    std::vector<Patient> result;
     for (const Cell cell : cells) {
         const JudgedCell judged_cell = judged(cell);
         if (const int how_bad = severity(judged_cell); how_bad > 0) {
@@ -146,7 +147,7 @@ std::vector<CleanUp::Patient> CleanUp::patients_after(const std::vector<Patient>
         }
     }
     std::sort(result.begin(), result.end());
-    result.erase(std::ranges::unique(result).begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
 }
 

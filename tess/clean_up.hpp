@@ -58,7 +58,7 @@ class CleanUp {
         }
     };
 
-    [[nodiscard]] std::vector<Patient> all_patients() const;
+    [[nodiscard]] std::vector<Patient> below_limits(const std::vector<delaunay::Cell>& cells) const;
     [[nodiscard]] std::vector<Patient> patients_after(const std::vector<Patient>& before) const;
     [[nodiscard]] std::optional<delaunay::Cell> cell_of(const Patient& patient) const;
     void note_change(const std::vector<delaunay::Cell>& cells);

@@ -203,6 +203,9 @@ class Refiner {
             triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
                                          zone.boundary.front().first, zone.boundary.front().second);
         vertex->info() = static_cast<std::uint32_t>(kernel_.vertices.size());
+        if (kernel_.vertices.size() == kernel_.vertices.capacity()) {  // doubling would cost more than the queue
+            kernel_.vertices.reserve(kernel_.vertices.size() / 8 * 9 + 8);
+        }
         kernel_.vertices.push_back({kernel_.next_id++, zone.point, Role::inserted, -1, 0});
         ++report_.inserted;
         if (values_at_once_) {

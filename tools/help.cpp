@@ -54,7 +54,7 @@ appear whole or not at all.
           R"(terratet        version
 input           boreholes, samples, faults; rejected: [{file, line, reason}];
                 notes
-frame           crs, unit, origin [x, y, z]
+frame           crs, unit, origin [x, y, z], z_scale
 defaults        what was chosen because it was not given
 preprocess      samples_kept, samples_deleted, samples_near_faults, seeds,
                 domain_vertices, coincident, outside_extent
@@ -64,7 +64,7 @@ refine          inserted, moved, removed, bound, skipped {reason: cells}
 final           vertices, tetrahedra, gap_tetrahedra, skinny_percent,
                 flat_percent, bad_percent, dihedral_deg {min, p1, p5, median},
                 edge_m {min, max}, fault_crossing_edges, delaunay, regions,
-                below {dihedral, vmin}
+                below {dihedral, dihedral_given, vmin}
 fidelity        per property: rms, max, count, against all samples
 estimator       name, options, fitted, fallbacks
 outputs         [{path, bytes}]

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: The Terratet authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The main job from end to end, at a coarse resolution."""
+import csv
 import json
+import math
 import unittest
 
 from terratet import Case, TWIN, twin_inputs
@@ -130,6 +132,46 @@ estimator = "idw"
         self.assertTrue((self.folder / "m.csv").exists())
         self.assertGreater(sum(json.loads((self.folder / "r.json").read_text())["refine"]["skipped"].values()), 0)
 
+
+class Resolution(Case):
+    def flat_site(self):
+        """5 km × 5 km × 100 m, at heights of a plateau."""
+        rows = ["x,y,z,T"]
+        for i in range(36):
+            for k in range(11):
+                x, y, z = 500000 + 1000 * (i % 6) + 37 * (i // 6), 6700000 + 1000 * (i // 6), 3010.3 - 9.7 * k
+                rows.append(f"{x},{y},{z},{math.sin(x / 900) + k / 5}")
+        return self.write("flat.csv", "\n".join(rows) + "\n")
+
+    def test_flat_sites_are_tessellated_in_stretched_z_and_written_unstretched(self):
+        build = ["convert", "--samples", self.flat_site(), "-s_srs", "EPSG:3067", "--estimator", "idw",
+                 "-te", "499900", "6699900", "2900", "505300", "6705100", "3020"]
+        plain = self.succeed(*build, "--lmin", "100", "plain.csv")
+        self.assertIn("--z-scale", plain.stderr)
+        done = self.succeed(*build, "--lmin", "200", "--z-scale", "24", "--report", "report.json", "m.gpkg", "m.vtu", "m.csv",
+                            "m.vdb", "m.glb")
+        self.assertNotIn("consider --z-scale", done.stderr)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["frame"]["z_scale"], 24)
+        self.assertEqual(report["final"]["below"]["dihedral"], report["final"]["below"]["dihedral_given"])
+        with open(self.folder / "m.csv", newline="") as file:
+            heights = [float(row["z"]) for row in csv.DictReader(file)]
+        self.assertEqual((min(heights), max(heights)), (2900, 3020))
+        self.assertGreater(len(set(heights)), 100)
+        self.assertNotIn("BROKEN", self.succeed("check", "m.gpkg").stdout)
+        self.succeed("export", "m.gpkg", "again.vtu", "again.csv")
+        for name in ("vtu", "csv"):
+            self.assertEqual((self.folder / f"m.{name}").read_bytes(), (self.folder / f"again.{name}").read_bytes())
+
+    def test_a_box_and_a_block_may_have_their_own_resolution(self):
+        inputs = twin_inputs()
+        self.succeed("build", *inputs, "--resolution", "525300,6791900,-600,525500,6792100,-400=15m,60m",
+                     "--resolution", "525200,6792300,-100=90m,360m", "-o", "m.gpkg")
+        check = self.succeed("check", "m.gpkg")
+        self.assertNotIn("BROKEN", check.stdout)
+        for wrong in ("1,2=3,4", "1,2,3=4", "1,2,3=9,4", "0,0,0,1,1,1=x,y", "5,5,5,1,1,1=1,2"):
+            self.fail_with(2, "build", *inputs, "--resolution", wrong, "-o", "n.gpkg")
+        self.fail_with(2, "build", *inputs, "--resolution", "0,0,0=10,40", "-o", "n.gpkg")
 
 if __name__ == "__main__":
     unittest.main()

@@ -84,9 +84,11 @@ bool in_protection_zone(const Model& model, const Vec3& p) {
 
 class Verifier {
   public:
-    Verifier(const Model& model, const ValueSource& source)
+    Verifier(const Model& model, const ValueSourceFactory& factory)
         : model_(model),
-          source_(source),
+          proximity_(model.faults),
+          factory_(factory),
+          source_(factory ? factory(model, proximity_) : ValueSource()),
           tessellation_(tessellate(model)),
           mesh_(tessellation_.mesh()),
           table_(describe_cells(model, mesh_)) {
@@ -99,8 +101,9 @@ class Verifier {
 
     std::vector<Verdict> run(const Progress& progress) {
         std::vector<Verdict> verdicts;
-        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::v1, &Verifier::f1, &Verifier::r1,    &Verifier::r2,
-                            &Verifier::r3, &Verifier::r4, &Verifier::r5, &Verifier::r7, &Verifier::volume};
+        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::d3,    &Verifier::v1, &Verifier::f1,
+                            &Verifier::r1, &Verifier::r2, &Verifier::r3,    &Verifier::r4, &Verifier::r5,
+                            &Verifier::r6, &Verifier::r7, &Verifier::volume};
         for (const auto step : steps) {
             report_progress(progress, "check",
                             static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
@@ -147,6 +150,39 @@ class Verifier {
         }
         return offenders.verdict("D2", "every dropped sample has a kept one within lmin or lies by a fault",
                                  std::to_string(dropped) + " dropped samples");
+    }
+
+    /// The samples in reversed order.
+    [[nodiscard]] Samples reversed_samples() const {
+        std::vector<std::uint32_t> order(model_.samples.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) {
+            order[i] = static_cast<std::uint32_t>(order.size()) - 1 - i;
+        }
+        return selected(model_.samples, order);
+    }
+
+    Verdict d3() {
+        Offenders offenders;
+        std::vector<std::uint32_t> inside;
+        const Samples reversed = reversed_samples();
+        for (const std::uint32_t i : canonical_order(reversed)) {
+            if (model_.domain.extent.contains(reversed.positions[i])) {
+                inside.push_back(i);
+            }
+        }
+        const Samples samples = selected(reversed, inside);
+        std::vector<Vec3> again;
+        for (const std::uint32_t i : edit_density(samples, resolution_, model_.density, proximity_).kept) {
+            again.push_back(samples.positions[i]);
+        }
+        std::vector<Vec3> kept = kept_;
+        std::ranges::sort(kept);
+        std::ranges::sort(again);
+        if (kept != again) {
+            offenders.add(std::to_string(again.size()) + " would be kept of the samples in reversed order");
+        }
+        return offenders.verdict("D3", "which samples are kept does not depend on their order",
+                                 "the same " + std::to_string(kept.size()) + " in reversed order");
     }
 
     Verdict v1() {
@@ -302,6 +338,33 @@ class Verifier {
         return offenders.verdict("R5", "the tessellation is Delaunay", std::to_string(mesh_.cells.size()) + " cells");
     }
 
+    Verdict r6() {
+        const std::string statement = "the same input gives the same tessellation, in any order of rows";
+        Offenders offenders;
+        if (!factory_) {
+            return offenders.verdict("R6", statement, "not tried: building again needs the estimator");
+        }
+        Site site = model_;
+        site.samples = reversed_samples();
+        std::ranges::reverse(site.surfaces);
+        BuildOptions options;
+        options.extent = model_.domain.extent;
+        options.criteria = model_.criteria;
+        options.density = model_.density;
+        options.faults = model_.fault_options;
+        BuildReport report;
+        const Model again = build(std::move(site), options, factory_, report);
+        if (again.vertices.size() != model_.vertices.size()) {
+            offenders.add(std::to_string(again.vertices.size()) + " vertices when built again");
+        }
+        for (std::size_t i = 0; i < std::min(again.vertices.size(), model_.vertices.size()); ++i) {
+            if (again.vertices[i].position != model_.vertices[i].position) {
+                offenders.add("vertex at " + show(model_, model_.vertices[i].position));
+            }
+        }
+        return offenders.verdict("R6", statement, "built again from reversed rows: the same vertices");
+    }
+
     Verdict r7() {
         Offenders offenders;
         Tessellation again = tessellate(model_);
@@ -341,8 +404,9 @@ class Verifier {
     }
 
     const Model& model_;
-    const ValueSource& source_;
-    FaultProximity proximity_{model_.faults};
+    FaultProximity proximity_;
+    const ValueSourceFactory& factory_;
+    ValueSource source_;
     ResolutionField resolution_{model_.criteria, model_.domain, model_.faults};
     Tessellation tessellation_;
     TetMesh mesh_;
@@ -352,8 +416,8 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Verdict> verify(const Model& model, const ValueSource& source, const Progress& progress) {
-    return Verifier(model, source).run(progress);
+std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress) {
+    return Verifier(model, factory).run(progress);
 }
 
 }  // namespace terratet

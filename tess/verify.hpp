@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "tess/model.hpp"
+#include "tess/build.hpp"
 #include "tess/progress.hpp"
-#include "tess/value_source.hpp"
 
 namespace terratet {
 
@@ -21,9 +20,9 @@ struct Verdict {
     std::string detail;     ///< figures; when it fails, the first offenders with their places
 };
 
-/// D1, D2, V1, F1, R1 to R5, R7 and total volume = hull box volume. (D3 and R6 speak of two runs; tests hold them.)
-/// With the model's own estimator as `source`, R7 tries the moves of the clean-up as well where a variation criterion
-/// is in force; without, it says that it did not.
-std::vector<Verdict> verify(const Model& model, const ValueSource& source = {}, const Progress& progress = {});
+/// D1 to D3, V1, F1, R1 to R7 and total volume = hull box volume. `factory` makes the model's own estimator: R6 builds
+/// the model again from its samples and surfaces in reversed order, and R7 tries the moves of the clean-up as well
+/// where a variation criterion is in force. Without it they say what they did not do.
+std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory = {}, const Progress& progress = {});
 
 }  // namespace terratet

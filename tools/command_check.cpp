@@ -52,12 +52,14 @@ class Check final : public Command {
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
         const Model model = load_model(paths_.front());
-        const FaultProximity faults(model.faults);
-        const ValueSource source = make_model_source(model, faults, parse_estimator(model.estimator));
+        const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of,
+                                                                            const FaultProximity& faults) {
+            return make_model_source(of, faults, plan);
+        };
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verify(model, source, display.callback());
+            verdicts = verify(model, factory, display.callback());
         }
         std::fputs((json_ ? as_json(verdicts) : as_lines(verdicts)).c_str(), stdout);
         if (std::fflush(stdout) != 0) {

@@ -37,6 +37,7 @@ CleanUp::CleanUp(Tessellation::Kernel& kernel, const InsertionRule& rule, const 
       frame_(frame),
       revalue_(std::move(revalue)),
       progress_(progress),
+      sharpest_cosine_(std::cos((criteria.dihedral_deg + 0.01) * std::numbers::pi / 180)),
       handles_(kernel.vertices.size()) {
     for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
         handles_[vertex->info()] = vertex;
@@ -137,10 +138,21 @@ std::vector<CleanUp::Patient> CleanUp::patients_after(const std::vector<Patient>
     return below_limits(cells);
 }
 
+/// Nearly all cells are, and this is all that is asked of them.
+bool CleanUp::clearly_above_limits(Cell cell) const {
+    const CellPoints p{delaunay::from_cgal(cell->vertex(0)->point()), delaunay::from_cgal(cell->vertex(1)->point()),
+                       delaunay::from_cgal(cell->vertex(2)->point()), delaunay::from_cgal(cell->vertex(3)->point())};
+    const double six_volumes = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])));
+    return sharpest_dihedral_cosine(p) < sharpest_cosine_ && six_volumes > 6.01 * criteria_.v_min;
+}
+
 /// Each once, worst first.
 std::vector<CleanUp::Patient> CleanUp::below_limits(const std::vector<Cell>& cells) const {
     std::vector<Patient> result;
     for (const Cell cell : cells) {
+        if (clearly_above_limits(cell)) {
+            continue;
+        }
         const JudgedCell judged_cell = judged(cell);
         if (const int how_bad = severity(judged_cell); how_bad > 0) {
             result.push_back({how_bad, judged_cell.vertices});

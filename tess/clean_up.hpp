@@ -58,6 +58,7 @@ class CleanUp {
         }
     };
 
+    [[nodiscard]] bool clearly_above_limits(delaunay::Cell cell) const;
     [[nodiscard]] std::vector<Patient> below_limits(const std::vector<delaunay::Cell>& cells) const;
     [[nodiscard]] std::vector<Patient> patients_after(const std::vector<Patient>& before) const;
     [[nodiscard]] std::optional<delaunay::Cell> cell_of(const Patient& patient) const;
@@ -81,6 +82,7 @@ class CleanUp {
     const Frame& frame_;
     Revalue revalue_;
     const Progress& progress_;
+    double sharpest_cosine_;  ///< of the limit, with room for rounding
     std::vector<delaunay::VertexHandle> handles_;
     std::vector<std::uint32_t> removed_;
     CleanUpReport report_;

@@ -46,13 +46,19 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
         shortest = std::min(shortest, d);
         longest = std::max(longest, d);
     }
-    double worst = std::sqrt(longest) / resolution_.l_max(p);
+    // Most cells are good: roots are for the others.
+    const double l_max = resolution_.l_max(p);
     const Circumsphere& sphere = cell.sphere;
-    if (criteria_.radius_edge > 0) {
-        worst = std::max(worst, std::sqrt(sphere.squared_radius / shortest) / criteria_.radius_edge);
-    }
+    const double ratio = criteria_.radius_edge;
     const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
-    if (criteria_.v_max > 0) {
+    double worst = 0;
+    if (!(longest <= l_max * l_max)) {
+        worst = std::sqrt(longest) / l_max;
+    }
+    if (ratio > 0 && !(sphere.squared_radius <= ratio * ratio * shortest)) {
+        worst = std::max(worst, std::sqrt(sphere.squared_radius / shortest) / ratio);
+    }
+    if (criteria_.v_max > 0 && !(volume <= criteria_.v_max)) {
         worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
     }
     if (criteria_.aspect > 0 && worst <= 1) {
@@ -157,7 +163,8 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
 }
 
 bool InsertionRule::allows(const Vec3& point) const {
-    return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) && (faults_.empty() || faults_.protecting_fault(point) < 0);
+    return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) &&
+           (faults_.empty() || faults_.protecting_fault(point) < 0);
 }
 
 }  // namespace terratet

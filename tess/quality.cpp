@@ -79,20 +79,22 @@ CellQuality cell_quality(const CellPoints& p) {
     return q;
 }
 
+/// The cosines' squares with their signs order as the cosines do, and cost one root for all.
 double sharpest_dihedral_cosine(const CellPoints& points) {
     const auto faces = face_vectors(points);
     std::array<double, 4> inverse{};
     for (std::size_t i = 0; i < 4; ++i) {
-        inverse[i] = 1 / length(faces[i]);
+        inverse[i] = 1 / squared_length(faces[i]);
     }
     double largest = -1;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j) {
-            const double cosine = -dot(faces[i], faces[j]) * inverse[i] * inverse[j];
-            largest = cosine <= largest ? largest : cosine;  // NaN, from a face without area, counts as sharpest
+            const double product = -dot(faces[i], faces[j]);
+            const double square = product * std::abs(product) * inverse[i] * inverse[j];
+            largest = square <= largest ? largest : square;  // NaN, from a face without area, counts as sharpest
         }
     }
-    return largest <= 1 ? largest : 1;
+    return largest <= 1 ? std::copysign(std::sqrt(std::abs(largest)), largest) : 1;
 }
 
 Circumsphere circumsphere(const CellPoints& p) {

@@ -266,8 +266,11 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     options.pad = a.pad.empty() ? -1 : parse_length(a.pad, unit);
     options.criteria = criteria_without_variation(a, unit);
     for (ResolutionOverride& part : options.criteria.overrides) {
-        part.box = {site.frame.to_local(part.box.lo), site.frame.to_local(part.box.hi)};
-        part.point = site.frame.to_local(part.point);
+        if (part.where == ResolutionOverride::Where::box) {
+            part.box = {site.frame.to_local(part.box.lo), site.frame.to_local(part.box.hi)};
+        } else {
+            part.point = site.frame.to_local(part.point);
+        }
     }
     set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);

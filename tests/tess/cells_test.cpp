@@ -109,6 +109,7 @@ TEST_CASE("Refinement leaves few bad cells where the criteria can be met") {
 
 TEST_CASE("A linear field is reproduced at every sample, dropped ones included") {
     auto world = quiet_world({});
+    world.site.properties[0] = parse_property("T");
     const auto linear = [](const Vec3& p) { return 3 + 0.01 * p.x - 0.02 * p.y + 0.005 * p.z; };
     for (std::size_t i = 0; i < world.site.samples.size(); ++i) {
         world.site.samples.values[0][i] = linear(world.site.samples.positions[i]);

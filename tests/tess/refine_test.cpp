@@ -68,7 +68,7 @@ TEST_CASE("A site without samples and without extent cannot be built, and says s
 
 TEST_CASE("Too many vertices are refused, naming the option") {
     testing::World world = random_world(5);
-    world.options.refine.max_vertices = 500;
+    world.options.refine.max_vertices = 150;
     CHECK_THROWS_WITH(build_world(world), Catch::Contains("--max-vertices"));
 }
 

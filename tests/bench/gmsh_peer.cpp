@@ -44,11 +44,11 @@ std::vector<CellPoints> cells_of_mesh() {
     return cells;
 }
 
-MeshResult run(const PointsInBox& task, double size) {
+MeshResult run(const PointsInBox& task, double size, bool optimise) {
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
     gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // Delaunay
-    gmsh::option::setNumber("Mesh.Optimize", 0);
+    gmsh::option::setNumber("Mesh.Optimize", optimise ? 1 : 0);
     gmsh::option::setNumber("Mesh.MeshSizeMin", size);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
     const Vec3 extent = task.box.size();
@@ -80,7 +80,7 @@ int main(int, char** argv) {
         task.points.push_back(p);
     }
     gmsh::initialize();
-    const MeshResult r = run(task, std::atof(argv[1]));
+    const MeshResult r = run(task, std::atof(argv[1]), argv[2][0] == '1');
     gmsh::finalize();
     std::printf("%.9g %zu %zu %.9g %.9g %.9g\n", r.seconds, r.vertices, r.cells, r.longest_edge, r.dihedral_p1_deg,
                 r.sharp_percent);

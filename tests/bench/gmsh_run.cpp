@@ -9,7 +9,7 @@
 
 namespace terratet::bench {
 
-std::optional<MeshResult> gmsh(const PointsInBox& task, double size) {
+std::optional<MeshResult> gmsh(const PointsInBox& task, double size, bool optimise) {
     const testing::TemporaryFolder folder;
     {
         std::ofstream file(folder / "task");
@@ -19,7 +19,8 @@ std::optional<MeshResult> gmsh(const PointsInBox& task, double size) {
         write(task.box.hi);
         std::ranges::for_each(task.points, write);
     }
-    const std::string command = std::string(TERRATET_GMSH_PEER) + " " + std::to_string(size) + " < " + folder / "task";
+    const std::string command =
+        std::string(TERRATET_GMSH_PEER) + " " + std::to_string(size) + (optimise ? " 1 < " : " 0 < ") + folder / "task";
     std::FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) {
         return std::nullopt;

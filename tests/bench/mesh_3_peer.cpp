@@ -38,7 +38,7 @@ Polyhedron polyhedron(const Box3& box) {
 
 }  // namespace
 
-MeshResult mesh_3(const PointsInBox& task, double size) {
+MeshResult mesh_3(const PointsInBox& task, double size, bool optimise) {
     namespace parameters = CGAL::parameters;
     const Polyhedron box = polyhedron(task.box);
     Domain3 domain(box);
@@ -47,7 +47,9 @@ MeshResult mesh_3(const PointsInBox& task, double size) {
                                 parameters::facet_size = size, parameters::facet_distance = size / 10,
                                 parameters::cell_radius_edge_ratio = 2, parameters::cell_size = size);
     const double start = cpu_s();
-    const auto mesh = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude());
+    const auto mesh =
+        optimise ? CGAL::make_mesh_3<Complex>(domain, criteria)
+                 : CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude());
     const double seconds = cpu_s() - start;
     std::vector<CellPoints> cells;
     for (auto cell = mesh.cells_in_complex_begin(); cell != mesh.cells_in_complex_end(); ++cell) {

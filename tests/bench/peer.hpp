@@ -50,12 +50,13 @@ MeshResult measured(double seconds, std::size_t vertices, std::size_t cells, con
 /// optimisation.
 MeshResult tetgen(const PointsInBox& task, double volume, double radius_edge, const char* more);
 
-/// CGAL's Mesh_3, sequential, R/ℓ up to 2, circumradii up to `size`, without its optimisers. The box only: it takes no
-/// points.
-MeshResult mesh_3(const PointsInBox& task, double size);
+/// CGAL's Mesh_3, sequential, R/ℓ up to 2, circumradii up to `size`, with its optimisers as they are by default
+/// (perturbation and exudation), or without. The box only: it takes no points.
+MeshResult mesh_3(const PointsInBox& task, double size, bool optimise);
 
-/// Gmsh's Delaunay algorithm with the points embedded, edges of about `size`, without its optimiser. In a process of
-/// its own (gmsh_peer), since Gmsh's library brings a TetGen of its own along. Nothing when that fails.
-std::optional<MeshResult> gmsh(const PointsInBox& task, double size);
+/// Gmsh's Delaunay algorithm with the points embedded, edges of about `size`, with its optimiser as it is by default,
+/// or without. In a process of its own (gmsh_peer), since Gmsh's library brings a TetGen of its own along. Nothing when
+/// that fails.
+std::optional<MeshResult> gmsh(const PointsInBox& task, double size, bool optimise);
 
 }  // namespace terratet::bench

@@ -65,11 +65,15 @@ std::vector<Tool> tools() {
         {"TetGen `O0o/180`", [](const auto& task, double volume) { return tetgen(task, volume, 2, "O0o/180"); }});
     all.push_back({"TetGen", [](const auto& task, double volume) { return tetgen(task, volume, 2, ""); }});
 #endif
-    all.push_back(
-        {"CGAL Mesh_3", [](const auto& task, double volume) { return mesh_3(task, edge_of_volume(volume)); }});
+    for (const bool optimise : {false, true}) {
+        all.push_back({optimise ? "CGAL Mesh_3" : "CGAL Mesh_3, not optimising", [=](const auto& task, double volume) {
+                           return mesh_3(task, edge_of_volume(volume), optimise);
+                       }});
 #ifdef TERRATET_GMSH_PEER
-    all.push_back({"Gmsh", [](const auto& task, double volume) { return gmsh(task, edge_of_volume(volume)); }});
+        all.push_back({optimise ? "Gmsh" : "Gmsh, not optimising",
+                       [=](const auto& task, double volume) { return gmsh(task, edge_of_volume(volume), optimise); }});
 #endif
+    }
     return all;
 }
 
@@ -141,7 +145,8 @@ void compare(const PointsInBox& task, double cells, int runs) {
     std::printf("\n");
     ratio("Terratet, insertion alone", "TetGen `O0o/180`");
     for (const char* ours : {"Terratet", "Terratet, β ≤ 8"}) {
-        for (const char* peer : {"TetGen", "CGAL Mesh_3", "Gmsh"}) {
+        for (const char* peer :
+             {"TetGen", "CGAL Mesh_3, not optimising", "CGAL Mesh_3", "Gmsh, not optimising", "Gmsh"}) {
             ratio(ours, peer);
         }
     }

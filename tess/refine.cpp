@@ -21,8 +21,8 @@ namespace {
 using delaunay::Cell;
 using delaunay::Facet;
 
-/// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do well, and
-/// trying seven more points for each would more than double the time.
+/// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do better,
+/// and trying seven more points for each would cost more than it saves.
 const double poor_star_cosine = std::cos(20 * std::numbers::pi / 180);
 constexpr int candidate_count = 7;
 constexpr double candidate_radius = 0.3;  ///< of the circumradius

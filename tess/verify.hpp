@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Re-verification of a stored model's guarantees, each from its definition, by brute force or exact predicates,
-/// sharing no code path with what established them. `terratet check` prints one line each.
+/// Re-verification of a stored model's guarantees, each from its definition, by brute force or exact predicates. What
+/// speaks of a second run (D3, R6, R7) is that run. `terratet check` prints one line each.
 
 #include <string>
 #include <vector>

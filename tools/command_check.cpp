@@ -80,13 +80,14 @@ class Check final : public Command {
 }  // namespace
 
 CommandEntry check_command() {
-    return {"check",
-            "verify a model's guarantees again",
-            "MODEL.gpkg",
-            "Verifies each guarantee of a stored model from its definition, one line each, sharing nothing with what "
-            "established it. Exit code 1 when one does not hold.",
-            {"terratet check site.gpkg"},
-            [] { return std::make_unique<Check>(); }};
+    return {
+        "check",
+        "verify a model's guarantees again",
+        "MODEL.gpkg",
+        "Verifies each guarantee of a stored model from its definition, one line each; to see that it depends on its "
+        "input alone, the model is built again. Exit code 1 when one does not hold.",
+        {"terratet check site.gpkg"},
+        [] { return std::make_unique<Check>(); }};
 }
 
 }  // namespace terratet::tools

@@ -119,7 +119,7 @@ class Clipper {
 
     /// The point where the edge meets the plane: the same one for every cell round the edge.
     std::uint32_t cut_point(std::uint32_t u, std::uint32_t v, const Plane& plane) {
-        const auto [a, b] = std::pair(std::min(u, v), std::max(u, v));
+        const auto [a, b] = before(v, u) ? std::pair(v, u) : std::pair(u, v);
         const auto [entry, fresh] = cut_of_edge_.try_emplace(std::uint64_t{a} << 32 | b, points_.size());
         if (fresh) {
             const double da = plane.distance(points_[a]);
@@ -143,9 +143,19 @@ class Clipper {
         }
     }
 
+    /// An order of places that is the same on both sides of a collapsed fault.
+    [[nodiscard]] bool before(std::uint32_t u, std::uint32_t v) const {
+        return points_[u] != points_[v] ? points_[u] < points_[v] : u < v;
+    }
+    template <std::size_t n>
+    [[nodiscard]] auto smallest(const std::array<std::uint32_t, n>& corners) const {
+        return std::min_element(corners.begin(), corners.end(),
+                                [this](std::uint32_t u, std::uint32_t v) { return before(u, v); });
+    }
+
     /// Corners of the quadrilateral in order round it.
     void add_pyramid(std::uint32_t apex, const std::array<std::uint32_t, 4>& quad) {
-        const std::size_t first = static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
+        const auto first = static_cast<std::size_t>(smallest(quad) - quad.begin());
         const auto q = [&](std::size_t k) { return quad[(first + k) % 4]; };
         add({apex, q(0), q(1), q(2)});
         add({apex, q(0), q(2), q(3)});
@@ -153,8 +163,7 @@ class Clipper {
 
     /// Edges lead from each corner of one triangle to the same one of the other.
     void add_prism(std::array<std::uint32_t, 3> a, std::array<std::uint32_t, 3> b) {
-        const auto smallest = [](const auto& t) { return std::min_element(t.begin(), t.end()); };
-        if (*smallest(b) < *smallest(a)) {
+        if (before(*smallest(b), *smallest(a))) {
             std::swap(a, b);
         }
         const auto first = static_cast<std::size_t>(smallest(a) - a.begin());
@@ -176,6 +185,14 @@ class Clipper {
         return both ? std::int64_t{first_piece_[static_cast<std::size_t>(neighbour)]} : -1;
     }
 
+    [[nodiscard]] bool on_extent(const Triangle& corners) const {
+        return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+            return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+                return std::abs(plane.distance(result_.points[v])) <= on_plane_;
+            });
+        });
+    }
+
     /// Between whole cells by the tessellation's own neighbours; of pieces, few of all, by sorting.
     void find_facets() {
         struct Side {
@@ -191,9 +208,9 @@ class Clipper {
                 if (beyond < 0) {
                     Triangle key = corners;
                     std::sort(key.begin(), key.end());
-                    sides.push_back({key, {corners, c, -1}});
+                    sides.push_back({key, {corners, c, -1, on_extent(corners)}});
                 } else if (beyond > c && is_gap(c) != is_gap(static_cast<std::size_t>(beyond))) {
-                    result_.facets.push_back({corners, c, beyond});
+                    result_.facets.push_back({corners, c, beyond, false});
                 }
             }
         }

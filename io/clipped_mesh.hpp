@@ -3,9 +3,10 @@
 #pragma once
 /// \file
 /// Private to the writers: the tessellation cut exactly at the extent's six planes. Cells that reach beyond are cut
-/// into tetrahedra, conforming: a quadrilateral shared by two pieces is split along the diagonal from its vertex of
-/// smallest index, which also settles every prism (Dompierre et al. 1999, How to subdivide pyramids, prisms and
-/// hexahedra into tetrahedra). The volumes of all pieces add up to that of the extent within rounding.
+/// into tetrahedra, conforming: a quadrilateral shared by two pieces is split along the diagonal from its smallest
+/// point (by coordinates, so that the twin facets of a collapsed fault are cut alike), which also settles every prism
+/// (Dompierre et al. 1999, How to subdivide pyramids, prisms and hexahedra into tetrahedra). The volumes of all pieces
+/// add up to that of the extent within rounding.
 
 #include <cstdint>
 #include <vector>
@@ -27,7 +28,8 @@ struct ClippedMesh {
     struct Facet {
         Triangle corners;     ///< indices into points
         std::uint32_t cell;   ///< index into cells
-        std::int64_t beyond;  ///< the cell on the other side; −1: none, the facet lies on the extent's faces
+        std::int64_t beyond;  ///< the cell on the other side; −1: none
+        bool on_extent;       ///< on the extent's faces; a facet with neither is a collapsed fault's
     };
 
     std::vector<Vec3> points;                         ///< frame-local, each used by a cell

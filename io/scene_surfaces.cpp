@@ -107,7 +107,9 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
     };
     for (const ClippedMesh::Facet& facet : clipped.facets) {
         const auto& [a, b, c] = facet.corners;
-        if (facet.beyond < 0) {
+        if (facet.beyond < 0 && !facet.on_extent) {
+            add_wall({a, b, c}, clipped.region[facet.cell]);
+        } else if (facet.beyond < 0) {
             boundary.add({a, c, b}, box_face(facet_normal(clipped, facet.corners)));
         } else if (const std::int32_t here = clipped.region[facet.cell],
                    there = clipped.region[static_cast<std::size_t>(facet.beyond)];

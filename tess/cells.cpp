@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "tess/box_clip.hpp"
 #include "tess/insertion_rule.hpp"
 #include "tess/mesh_walk.hpp"
 #include "tess/point_grid.hpp"
@@ -72,30 +73,9 @@ class Explainer {
     std::optional<PointGrid> vertices_;
 };
 
-/// The part of a convex polygon on the inner side of one face of a box.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, int axis, double limit, bool upper) {
-    std::vector<Vec3> result;
-    const auto depth = [&](const Vec3& p) { return upper ? limit - p[axis] : p[axis] - limit; };
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec3& p = polygon[i];
-        const Vec3& q = polygon[(i + 1) % polygon.size()];
-        if (depth(p) >= 0) {
-            result.push_back(p);
-        }
-        if ((depth(p) > 0 && depth(q) < 0) || (depth(p) < 0 && depth(q) > 0)) {
-            result.push_back(p + (depth(p) / (depth(p) - depth(q))) * (q - p));
-        }
-    }
-    return result;
-}
-
 /// Does the triangle share an area with the box?
 bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
-    std::vector<Vec3> polygon(triangle.begin(), triangle.end());
-    for (int axis = 0; axis < 3; ++axis) {
-        polygon = clipped(polygon, axis, box.lo[axis], false);
-        polygon = clipped(polygon, axis, box.hi[axis], true);
-    }
+    const std::vector<Vec3> polygon = clipped({triangle.begin(), triangle.end()}, box);
     Vec3 area;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
         area = area + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);

@@ -45,7 +45,7 @@ class Export final : public Command {
         const Meshed meshed = mesh_model(model, false);
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
-            record.outputs = write_outputs(model, &meshed, outputs, exporting_, run_, {}, display.callback());
+            record.written = write_outputs(model, &meshed, outputs, exporting_, run_, {}, display.callback());
         }
         record.write_seconds = writing.seconds();
         record.total_seconds = total.seconds();
@@ -68,7 +68,7 @@ CommandEntry export_command() {
             "MODEL.gpkg OUTPUT…",
             "Writes a model in one or several formats, each by its extension.",
             {"terratet export site.gpkg site.vtu site.glb", "terratet export -tr 5m site.gpkg site.vdb",
-             "terratet export --clip --compress site.gpkg extent.vtu"},
+             "terratet export --clip --fault-gap collapse site.gpkg elements.vtu"},
             [] { return std::make_unique<Export>(); }};
 }
 

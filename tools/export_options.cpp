@@ -60,6 +60,11 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
                   &a.voxel_size,
                   3},
                  {{"clip"}, "", "VTU: cut the cells at the extent", &a.clip},
+                 {{"fault-gap"},
+                  "HOW",
+                  "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
+                  "fault, its nodes split",
+                  &a.fault_gap},
                  {{"compress"}, "", "VTU: with zlib", &a.compress},
                  {{"local-origin"},
                   "",
@@ -90,6 +95,10 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.compress = as_flag(key, value);
         } else if (key == "LOCAL_ORIGIN") {
             a.local_origin = as_flag(key, value);
+        } else if (key == "FAULT_GAP") {
+            a.fault_gap = value;
+            std::transform(a.fault_gap.begin(), a.fault_gap.end(), a.fault_gap.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
         } else if (key == "VOXEL_SIZE") {
             a.voxel_size = value;
         } else if (key == "COLOR") {
@@ -97,8 +106,8 @@ ExportArguments with_creation_options(ExportArguments a) {
         } else if (key == "COLOR_MAP") {
             a.color_map = value;
         } else {
-            throw UsageError(
-                fmt::format("-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, COLOR, COLOR_MAP", key));
+            throw UsageError(fmt::format(
+                "-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, FAULT_GAP, COLOR, COLOR_MAP", key));
         }
     }
     a.creation_options.clear();
@@ -110,6 +119,13 @@ void check_export_arguments(const ExportArguments& arguments) {
     if (!a.voxel_size.empty()) {
         parse_voxel_size(a.voxel_size, 1.0);
     }
+    collapses_faults(a, "VTU");
+}
+
+bool collapses_faults(const ExportArguments& arguments, const std::string& format) {
+    const ExportArguments a = with_creation_options(arguments);
+    const bool collapse = choose<bool>("--fault-gap", a.fault_gap, {{"keep", false}, {"collapse", true}});
+    return collapse && (format == "VTU" || format == "GLTF");
 }
 
 ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {

@@ -42,6 +42,21 @@ bool same_file(const std::string& a, const std::string& b) {
     }
 }
 
+/// Throws Error when the result fails its check.
+CollapsedModel collapse_checked(const Model& model, const Meshed& meshed) {
+    CollapsedModel result = collapse_faults(model, meshed.mesh, meshed.cells);
+    const Conformity& c = result.report.conformity;
+    if (!c.proper()) {
+        const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
+        throw Error(
+            fmt::format("--fault-gap collapse: the mesh fails its check, first at ({:.1f}, {:.1f}, {:.1f}): {} "
+                        "cells turned inside out, {} facets without their twin, {} overlapping; volume off by "
+                        "{:.2g}; please report this, and use --fault-gap keep",
+                        where.x, where.y, where.z, c.not_positive, c.unmatched, c.overlapping, c.volume_error));
+    }
+    return result;
+}
+
 std::time_t now() {
     if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
         const std::string text = epoch;
@@ -94,26 +109,35 @@ Meshed mesh_model(const Model& model, bool verify_delaunay) {
     return meshed;
 }
 
-std::vector<OutputRecord> write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
-                                        const ExportArguments& arguments, const RunArguments& run,
-                                        const JournalEntry& entry, const Progress& progress) {
+Written write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
+                      const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
+                      const Progress& progress) {
     ExportOptions options = writer_options(arguments, model);
     options.overwrite = run.overwrite;
     options.progress = progress;
-    std::vector<OutputRecord> written;
+    Written written;
+    std::optional<CollapsedModel> collapsed;
     for (const auto& path : paths) {
         try {
-            report_progress(progress, "write", static_cast<double>(written.size()) / static_cast<double>(paths.size()));
+            report_progress(progress, "write",
+                            static_cast<double>(written.outputs.size()) / static_cast<double>(paths.size()));
             if (names_model(path)) {
                 save_model(path, model, entry, run.overwrite);
                 std::error_code no_file;
                 const auto bytes = fs::file_size(path, no_file);
-                written.push_back({path, no_file ? 0 : bytes});
+                written.outputs.push_back({path, no_file ? 0 : bytes});
+            } else if (!model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format))) {
+                if (!collapsed) {
+                    collapsed = collapse_checked(model, *meshed);
+                    written.collapse = collapsed->report;
+                }
+                written.outputs.push_back(
+                    export_model({collapsed->model, collapsed->mesh, collapsed->cells}, path, options));
             } else {
-                written.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
+                written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
             }
         } catch (...) {
-            rethrow_naming(written);
+            rethrow_naming(written.outputs);
         }
     }
     return written;

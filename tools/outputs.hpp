@@ -10,6 +10,7 @@
 
 #include "io/export.hpp"
 #include "io/model_store.hpp"
+#include "tess/collapse.hpp"
 #include "tools/command_line.hpp"
 #include "tools/export_options.hpp"
 #include "tools/run_options.hpp"
@@ -32,11 +33,17 @@ struct Meshed {
 };
 Meshed mesh_model(const Model& model, bool verify_delaunay);
 
+/// What was written, and how the faults were collapsed for it.
+struct Written {
+    std::vector<OutputRecord> outputs;
+    std::optional<CollapseReport> collapse;
+};
+
 /// Writes all of `paths`: models through `entry`, the rest through their writers. An error names what was written
 /// before. \pre `meshed` is there unless all paths name models.
-std::vector<OutputRecord> write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
-                                        const ExportArguments& arguments, const RunArguments& run,
-                                        const JournalEntry& entry, const Progress& progress);
+Written write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
+                      const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
+                      const Progress& progress);
 
 /// For the journal: what was asked, without what only says how to run. The time is SOURCE_DATE_EPOCH's when set.
 JournalEntry journal_entry(const std::string& command, const std::vector<Given>& given);

@@ -132,6 +132,28 @@ Json seconds_json(const RunRecord& record) {
     return seconds;
 }
 
+Json places_json(const std::vector<Vec3>& places, const Frame& frame) {
+    Json list = Json::array();
+    for (const Vec3& place : places) {
+        const Vec3 p = frame.to_world(place);
+        list.push_back({p.x, p.y, p.z});
+    }
+    return list;
+}
+
+Json collapse_json(const CollapseReport& collapse, const Frame& frame) {
+    return {{"dropped_cells", collapse.dropped_cells},
+            {"mirrored_facets", collapse.conformity.mirrored_facets},
+            {"split_places", collapse.split_places},
+            {"added_places", collapse.added_places},
+            {"split_area", collapse.split_area},
+            {"sheet_area", collapse.sheet_area},
+            {"unsplit_between_regions", collapse.conformity.leaking},
+            {"volume_error", collapse.conformity.volume_error},
+            {"apart", places_json(collapse.apart, frame)},
+            {"aside", places_json(collapse.aside, frame)}};
+}
+
 }  // namespace
 
 std::string report_text(const RunRecord& record) {
@@ -168,8 +190,11 @@ std::string report_text(const RunRecord& record) {
                                {"fallbacks", build.fallbacks}};
     }
     report["outputs"] = Json::array();
-    for (const auto& output : record.outputs) {
+    for (const auto& output : record.written.outputs) {
         report["outputs"].push_back({{"path", output.path}, {"bytes", output.bytes}});
+    }
+    if (record.written.collapse) {
+        report["collapse"] = collapse_json(*record.written.collapse, frame);
     }
     report["seconds"] = seconds_json(record);
     report["peak_memory_bytes"] = peak_memory_bytes();

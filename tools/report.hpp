@@ -18,7 +18,7 @@ struct RunRecord {
     const Model* model = nullptr;
     const BuildRecord* build = nullptr;  ///< null: the model was there already
     const Meshed* meshed = nullptr;      ///< with `delaunay` verified, when there is a build to report
-    std::vector<OutputRecord> outputs;
+    Written written;
     double write_seconds = 0;
     double total_seconds = 0;
 };

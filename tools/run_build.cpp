@@ -46,7 +46,7 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
         if (!a.run.report.empty() || !std::all_of(a.outputs.begin(), a.outputs.end(), names_model)) {
             meshed = mesh_model(model, !a.run.report.empty());
         }
-        record.outputs = write_outputs(model, meshed ? &*meshed : nullptr, a.outputs, a.exporting, a.run,
+        record.written = write_outputs(model, meshed ? &*meshed : nullptr, a.outputs, a.exporting, a.run,
                                        journal_entry(command, given), progress);
         record.write_seconds = writing.seconds();
     }

@@ -97,7 +97,20 @@ std::string summary_text(const RunRecord& record) {
     if (record.build != nullptr) {
         out += build_lines(*record.build, *record.model);
     }
-    for (const auto& output : record.outputs) {
+    if (record.written.collapse) {
+        const CollapseReport& collapse = *record.written.collapse;
+        const std::size_t left = collapse.apart.size() + collapse.aside.size();
+        out += line(
+            "Collapsed",
+            fmt::format("{}; {} on the faults are split; each of {} has its twin{}{}",
+                        counted(collapse.dropped_cells, "gap cell"), counted(collapse.split_places, "place"),
+                        counted(collapse.conformity.mirrored_facets, "facet"),
+                        left == 0 ? "" : fmt::format("; {} left open, see the report", counted(left, "place")),
+                        collapse.conformity.leaking == 0 ? ""
+                                                         : fmt::format("; {} between regions not split",
+                                                                       counted(collapse.conformity.leaking, "facet"))));
+    }
+    for (const auto& output : record.written.outputs) {
         out += line("Wrote", fmt::format("{} ({})", output.path, byte_size(output.bytes)));
     }
     return out + fmt::format("{:10}{:.2f} s", "Time", record.total_seconds);

@@ -2,64 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_proximity.hpp"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <cassert>
-#include <limits>
 
 #include "tess/fault_rims.hpp"
 #include "tess/triangle_grid.hpp"
+#include "tess/triangle_tree.hpp"
 
 namespace terratet {
-namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Kernel::Point_3 point(const Vec3& p) {
-    return {p.x, p.y, p.z};
-}
-
-/// A sheet's triangles and their tree. Not movable: the tree points into the triangles.
-struct Sheet {
-    explicit Sheet(const Surface& surface) {
-        for (const Triangle& t : surface.triangles) {
-            const Kernel::Triangle_3 triangle(point(surface.vertices[t[0]]), point(surface.vertices[t[1]]),
-                                              point(surface.vertices[t[2]]));
-            if (!triangle.is_degenerate()) {  // has no inside, and CGAL's predicates ask for one
-                triangles.push_back(triangle);
-            }
-        }
-        tree.insert(triangles.cbegin(), triangles.cend());
-        if (!triangles.empty()) {
-            tree.build();  // now, so that queries from many threads find nothing left to build
-            tree.accelerate_distance_queries();
-        }
-    }
-    Sheet(const Sheet&) = delete;
-    Sheet& operator=(const Sheet&) = delete;
-
-    [[nodiscard]] bool meets(const Kernel::Point_3& a, const Kernel::Point_3& b) const {
-        if (triangles.empty()) {
-            return false;
-        }
-        return a == b ? tree.do_intersect(a) : tree.do_intersect(Kernel::Segment_3(a, b));
-    }
-
-    Triangles triangles;
-    Tree tree;
-};
-
-}  // namespace
 
 struct FaultProximity::Impl {
     std::span<const Fault> faults;
-    std::vector<std::unique_ptr<const Sheet>> sheets;
+    std::vector<TriangleTree> sheets;
     FaultRims rims;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
@@ -80,7 +33,7 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
         reach.resize(triangles.size(), fault.protection_radius);
         impl_->fault_of.resize(triangles.size(), index);
         impl_->squared_protection.push_back(fault.protection_radius * fault.protection_radius);
-        impl_->sheets.push_back(std::make_unique<const Sheet>(fault.sheet));
+        impl_->sheets.emplace_back(fault.sheet);
     }
     impl_->rims = FaultRims(faults);
     impl_->zone = TriangleGrid(std::move(triangles), reach);
@@ -110,12 +63,12 @@ std::int32_t FaultProximity::protecting_fault(const Vec3& p) const {
 
 bool FaultProximity::crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const {
     assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
-    return impl_->sheets[static_cast<std::size_t>(fault)]->meets(point(a), point(b));
+    return impl_->sheets[static_cast<std::size_t>(fault)].meets(a, b);
 }
 
 bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except) const {
     for (std::size_t f = 0; f < impl_->sheets.size(); ++f) {
-        if (static_cast<std::int32_t>(f) != except && impl_->sheets[f]->meets(point(a), point(b))) {
+        if (static_cast<std::int32_t>(f) != except && impl_->sheets[f].meets(a, b)) {
             return true;
         }
     }
@@ -128,9 +81,7 @@ double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
 
 double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {
     assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
-    const Sheet& sheet = *impl_->sheets[static_cast<std::size_t>(fault)];
-    return sheet.triangles.empty() ? std::numeric_limits<double>::infinity()
-                                   : std::sqrt(sheet.tree.squared_distance(point(p)));
+    return impl_->sheets[static_cast<std::size_t>(fault)].distance_to(p);
 }
 
 }  // namespace terratet

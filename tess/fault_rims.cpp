@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "tess/sight.hpp"
+
 namespace terratet {
 namespace {
 
@@ -28,11 +30,6 @@ std::vector<std::array<std::uint32_t, 2>> rim_of(const Surface& sheet) {
         }
     }
     return rim;
-}
-
-bool apart(const Box3& a, const Box3& b) {
-    return a.lo.x > b.hi.x || b.lo.x > a.hi.x || a.lo.y > b.hi.y || b.lo.y > a.hi.y || a.lo.z > b.hi.z ||
-           b.lo.z > a.hi.z;
 }
 
 }  // namespace
@@ -78,16 +75,14 @@ double FaultRims::clearance(const Vec3& a, const Vec3& b) const {
     if (nodes_.empty()) {
         return least;
     }
-    Box3 sight;
-    sight.extend(a);
-    sight.extend(b);
+    const Sight sight(a, b);
     std::array<std::uint32_t, 64> stack;  // depth of a tree of halves
     std::size_t waiting = 0;
     stack[waiting++] = 0;
     while (waiting > 0) {
         const std::uint32_t at = stack[--waiting];
         const Node& node = nodes_[at];
-        if (apart(node.box, sight)) {
+        if (sight.misses(node.box)) {
             continue;
         }
         if (node.right != 0) {

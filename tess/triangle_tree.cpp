@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/triangle_tree.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "tess/sight.hpp"
+
+namespace terratet {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Corners = std::array<Vec3, 3>;
+
+constexpr std::uint32_t leaf_size = 2;
+constexpr std::size_t deepest = 64;  // more than a tree of halves
+
+Kernel::Point_3 point(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+Kernel::Triangle_3 triangle(const Corners& c) {
+    return {point(c[0]), point(c[1]), point(c[2])};
+}
+
+Box3 box_of(const Corners& c) {
+    return bounding_box(c);
+}
+
+double squared_distance_to(const Box3& box, const Vec3& p) {
+    return squared_distance(p, box.clamped(p));
+}
+
+/// Two parallel planes with the surface between them: sheets are rather flat, and most segments are on one side.
+struct Slab {
+    Vec3 origin, normal;
+    double lo = std::numeric_limits<double>::infinity();
+    double hi = -std::numeric_limits<double>::infinity();
+
+    explicit Slab(const std::vector<Corners>& triangles) {
+        for (const auto& [a, b, c] : triangles) {
+            normal = normal + cross(b - a, c - a);
+        }
+        origin = triangles.front()[0];
+        const double scale = length(normal);
+        normal = scale > 0 ? normal / scale : Vec3{0, 0, 1};
+        for (const auto& corners : triangles) {
+            for (const Vec3& p : corners) {
+                const double height = dot(normal, p - origin);
+                lo = std::min(lo, height - rounding(p));
+                hi = std::max(hi, height + rounding(p));
+            }
+        }
+    }
+    /// More than the height of p may be off.
+    [[nodiscard]] double rounding(const Vec3& p) const {
+        return 1e-14 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + std::abs(origin.x) + std::abs(origin.y) +
+                        std::abs(origin.z));
+    }
+    [[nodiscard]] bool beside(const Vec3& a, const Vec3& b) const {
+        const double height_a = dot(normal, a - origin), height_b = dot(normal, b - origin);
+        const double slack = rounding(a) + rounding(b);
+        return std::min(height_a, height_b) > hi + slack || std::max(height_a, height_b) < lo - slack;
+    }
+};
+
+std::vector<Corners> triangles_of(const Surface& surface) {
+    std::vector<Corners> triangles;
+    for (const Triangle& t : surface.triangles) {
+        const Corners corners{surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
+        if (!triangle(corners).is_degenerate()) {  // has no inside, and CGAL's predicates ask for one
+            triangles.push_back(corners);
+        }
+    }
+    return triangles;
+}
+
+}  // namespace
+
+struct TriangleTree::Impl {
+    struct Node {
+        Box3 box;
+        std::uint32_t begin, end;
+        std::uint32_t right;  ///< the second child; the first follows at once; 0: a leaf
+    };
+
+    explicit Impl(std::vector<Corners> all) : triangles(std::move(all)), slab(triangles) {
+        nodes.reserve(2 * triangles.size());
+        split(0, static_cast<std::uint32_t>(triangles.size()));
+    }
+
+    void split(std::uint32_t begin, std::uint32_t end) {
+        const auto here = nodes.size();
+        Box3 box;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const Box3 own = box_of(triangles[i]);
+            box.extend(own.lo);
+            box.extend(own.hi);
+        }
+        nodes.push_back({box, begin, end, 0});
+        if (end - begin <= leaf_size) {
+            return;
+        }
+        const Vec3 size = box.size();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const std::uint32_t middle = begin + (end - begin) / 2;
+        const auto key = [axis](const Corners& c) { return c[0][axis] + c[1][axis] + c[2][axis]; };
+        std::nth_element(triangles.begin() + begin, triangles.begin() + middle, triangles.begin() + end,
+                         [&](const Corners& a, const Corners& b) { return key(a) < key(b); });
+        split(begin, middle);
+        nodes[here].right = static_cast<std::uint32_t>(nodes.size());
+        split(middle, end);
+    }
+
+    /// Calls test(triangle) at leaves that `misses` lets by, until one is true.
+    template <class Misses, class Test>
+    [[nodiscard]] bool any(const Misses& misses, const Test& test) const {
+        std::array<std::uint32_t, deepest> waiting;
+        std::size_t count = 0;
+        waiting[count++] = 0;
+        while (count > 0) {
+            const std::uint32_t at = waiting[--count];
+            const Node& node = nodes[at];
+            if (misses(node.box)) {
+                continue;
+            }
+            if (node.right != 0) {
+                waiting[count++] = node.right;
+                waiting[count++] = at + 1;
+                continue;
+            }
+            for (std::uint32_t i = node.begin; i < node.end; ++i) {
+                if (test(triangles[i])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    std::vector<Corners> triangles;  ///< in the order of the leaves
+    Slab slab;
+    std::vector<Node> nodes;
+};
+
+TriangleTree::TriangleTree(const Surface& surface) {
+    auto triangles = triangles_of(surface);
+    if (!triangles.empty()) {
+        impl_ = std::make_unique<Impl>(std::move(triangles));
+    }
+}
+
+TriangleTree::~TriangleTree() = default;
+TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
+TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
+
+bool TriangleTree::meets(const Vec3& a, const Vec3& b) const {
+    if (!impl_ || impl_->slab.beside(a, b)) {
+        return false;
+    }
+    if (a == b) {
+        return impl_->any([&](const Box3& box) { return !box.contains(a); },
+                          [p = point(a)](const Corners& c) { return CGAL::do_intersect(triangle(c), p); });
+    }
+    const Sight sight(a, b);
+    return impl_->any([&](const Box3& box) { return sight.misses(box); },
+                      [segment = Kernel::Segment_3(point(a), point(b))](const Corners& c) {
+                          return CGAL::do_intersect(triangle(c), segment);
+                      });
+}
+
+double TriangleTree::distance_to(const Vec3& p) const {
+    double least = std::numeric_limits<double>::infinity();  // squared
+    if (impl_) {
+        static_cast<void>(impl_->any([&](const Box3& box) { return squared_distance_to(box, p) >= least; },
+                                     [&](const Corners& c) {
+                                         const Vec3 nearest = closest_point_on_triangle(p, c[0], c[1], c[2]);
+                                         least = std::min(least, squared_distance(p, nearest));
+                                         return least == 0;
+                                     }));
+    }
+    return std::sqrt(least);
+}
+
+}  // namespace terratet

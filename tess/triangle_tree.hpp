@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: does a segment meet a surface? A tree of boxes, and exact predicates at its leaves. Estimators ask this
+/// for every neighbour of every place; CGAL's AABB tree, whose boxes are tested in interval arithmetic too, takes five
+/// times as long.
+
+#include <memory>
+
+#include "tess/surface.hpp"
+
+namespace terratet {
+
+class TriangleTree {
+  public:
+    /// Triangles without area are left out. O(n log n).
+    explicit TriangleTree(const Surface& surface);
+    ~TriangleTree();
+    TriangleTree(TriangleTree&&) noexcept;
+    TriangleTree& operator=(TriangleTree&&) noexcept;
+
+    /// Does the closed segment, or the point where a == b, meet a closed triangle? Exact. O(log n).
+    [[nodiscard]] bool meets(const Vec3& a, const Vec3& b) const;
+
+    /// To the nearest triangle; infinity without any. O(log n).
+    [[nodiscard]] double distance_to(const Vec3& p) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terratet

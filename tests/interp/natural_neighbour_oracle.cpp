@@ -152,7 +152,7 @@ SiteWeights ExactVoronoi::sibson_weights(const Vec3& q) const {
     return weights;
 }
 
-SiteWeights rational_weights(const std::vector<Vec3>& sites, const Vec3& q) {
+SiteWeights fallback_weights(const std::vector<Vec3>& sites, const Vec3& q, Fallback which) {
     const auto order = morton_order(sites);
     std::vector<Vec3> sorted;
     for (const std::uint32_t i : order) {
@@ -162,7 +162,12 @@ SiteWeights rational_weights(const std::vector<Vec3>& sites, const Vec3& q) {
     Cavity cavity;
     cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
     std::vector<double> shares;
-    exact_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::sibson, shares);
+    constexpr auto sibson = NaturalNeighbourOptions::Weighting::sibson;
+    if (which == Fallback::rational) {
+        exact_shares(mesh, cavity, q, sibson, shares);
+    } else if (!wide_shares(mesh, cavity, q, sibson, shares)) {
+        return {};
+    }
     SiteWeights weights;
     for (std::size_t v = 0; v < shares.size(); ++v) {
         if (!mesh.is_ghost(cavity.vertices[v])) {

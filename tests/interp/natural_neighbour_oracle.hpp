@@ -37,8 +37,9 @@ class ExactVoronoi {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The library's rational fallback, which estimates hardly ever take.
-SiteWeights rational_weights(const std::vector<Vec3>& sites, const Vec3& q);
+/// The library's fallbacks, which estimates hardly ever take. Of wide floats none where they give up.
+enum class Fallback { wide, rational };
+SiteWeights fallback_weights(const std::vector<Vec3>& sites, const Vec3& q, Fallback which);
 
 /// Over the sites of either; a site that is missing weighs 0.
 double largest_difference(const SiteWeights& a, const SiteWeights& b);

@@ -8,17 +8,13 @@
 #include <cmath>
 #include <cstring>
 
+#include "estimation.hpp"
 #include "sites.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;
 
 namespace {
-
-const FaultProximity& no_faults() {
-    static const FaultProximity none{std::vector<Fault>{}};
-    return none;
-}
 
 Model wells_model() {
     Model model;
@@ -35,10 +31,6 @@ Model wells_model() {
         model.samples.values[1].push_back(p.z > 500 ? 0 : 1);
     }
     return model;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace

@@ -10,31 +10,13 @@
 #include <map>
 #include <sstream>
 
+#include "estimation.hpp"
 #include "sites.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;
 
 namespace {
-
-using Rows = std::vector<std::vector<std::string>>;
-
-/// Of a file beside gstat/reference.R, without its header.
-Rows reference(const std::string& name) {
-    std::ifstream file(std::string(TERRATET_SOURCE_DIR) + "/tests/interp/gstat/" + name);
-    REQUIRE(file);
-    Rows rows;
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-        std::istringstream cells(line);
-        auto& row = rows.emplace_back();
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            row.push_back(cell);
-        }
-    }
-    return rows;
-}
 
 Vec3 place(const std::vector<std::string>& row) {
     return {std::stod(row[0]), std::stod(row[1]), std::stod(row[2])};
@@ -45,13 +27,7 @@ const std::string any_kriging = "kriging:nugget=0.1:sill=1:range=300:ratio3=1";
 std::vector<Weights> weights_at(const std::string& spec, const std::vector<Vec3>& sites,
                                 const std::vector<Vec3>& places, const std::vector<std::int32_t>& boreholes = {}) {
     const auto estimator = make_estimator(parse_estimator(spec), sites, nullptr, boreholes);
-    std::vector<ValueQuery> queries;
-    for (const Vec3& p : places) {
-        queries.push_back({p, -1, 0});
-    }
-    std::vector<Weights> out(places.size());
-    estimator->weights(queries, out);
-    return out;
+    return testing::weights_at(*estimator, places);
 }
 
 /// Finite, and summing to 1.
@@ -72,16 +48,16 @@ void require_sound(const Weights& w) {
 TEST_CASE("Kriging gives gstat's values and variances: every model, drift, anisotropy, neighbourhood") {
     std::vector<Vec3> sites;
     std::vector<double> values;
-    for (const auto& row : reference("samples.csv")) {
+    for (const auto& row : gstat_rows("samples.csv")) {
         sites.push_back(place(row));
         values.push_back(std::stod(row[3]));
     }
     std::vector<Vec3> places;
-    for (const auto& row : reference("places.csv")) {
+    for (const auto& row : gstat_rows("places.csv")) {
         places.push_back(place(row));
     }
     std::map<std::string, std::vector<Weights>> results;
-    for (const auto& row : reference("kriging.csv")) {
+    for (const auto& row : gstat_rows("kriging.csv")) {
         std::string spec = row[0];
         for (const std::string option : {"per_octant=0", "per_borehole=0", "ratio3=1"}) {
             const std::string key = option.substr(0, option.find('='));

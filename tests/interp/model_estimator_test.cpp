@@ -9,6 +9,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "estimation.hpp"
 #include "interp/folds.hpp"
 #include "interp/uncertainty.hpp"
 #include "sites.hpp"
@@ -17,11 +18,6 @@ using namespace terratet;
 using namespace terratet::testing;
 
 namespace {
-
-const FaultProximity& no_faults() {
-    static const FaultProximity none{std::vector<Fault>{}};
-    return none;
-}
 
 /// Wells with a smooth grade, its logarithmic twin, and a rock that changes with depth.
 Model wells_model(std::size_t wells = 20, std::size_t samples = 25) {
@@ -43,19 +39,6 @@ Model wells_model(std::size_t wells = 20, std::size_t samples = 25) {
         model.samples.values[3].push_back(missing);
     }
     return model;
-}
-
-std::vector<ValueQuery> queries_in(const Box3& box, std::size_t count, std::uint64_t seed) {
-    Random random(seed);
-    std::vector<ValueQuery> queries(count);
-    for (auto& query : queries) {
-        query.position = random.in(box);
-    }
-    return queries;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace

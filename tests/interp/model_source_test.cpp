@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "estimation.hpp"
 #include "sites.hpp"
 
 using namespace terratet;
@@ -35,24 +36,6 @@ Model model_of(const std::vector<Vec3>& sites) {
         }
     }
     return model;
-}
-
-std::vector<ValueQuery> queries_in(const Box3& box, std::size_t count, std::uint64_t seed) {
-    Random random(seed);
-    std::vector<ValueQuery> queries(count);
-    for (auto& query : queries) {
-        query.position = random.in(box);
-    }
-    return queries;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
-const FaultProximity& no_faults() {
-    static const FaultProximity none{std::span<const Fault>()};
-    return none;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "estimation.hpp"
 #include "interp/estimator.hpp"
 #include "interp/variogram_fit.hpp"
 #include "sites.hpp"
@@ -16,15 +17,10 @@ using namespace terratet::testing;
 namespace {
 
 std::vector<std::vector<double>> reference(const std::string& name) {
-    std::ifstream file(std::string(TERRATET_SOURCE_DIR) + "/tests/interp/gstat/" + name);
-    REQUIRE(file);
     std::vector<std::vector<double>> rows;
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-        std::istringstream cells(line);
+    for (const auto& cells : gstat_rows(name)) {
         auto& row = rows.emplace_back();
-        for (std::string cell; std::getline(cells, cell, ',');) {
+        for (const std::string& cell : cells) {
             row.push_back(std::stod(cell));
         }
     }

@@ -170,12 +170,13 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector
             std::move(boreholes));
     }
     if (name == "linear") {
-        return std::make_unique<LinearInCells>(std::move(sites), faults);
+        return std::make_unique<LinearInCells>(std::move(sites), faults, anisotropy_of(spec));
     }
     NaturalNeighbourOptions options;
     options.weighting =
         name == "laplace" ? NaturalNeighbourOptions::Weighting::laplace : NaturalNeighbourOptions::Weighting::sibson;
     options.smooth = spec.options.contains("smooth");
+    options.anisotropy = anisotropy_of(spec);
     return std::make_unique<NaturalNeighbour>(std::move(sites), faults, options);
 }
 

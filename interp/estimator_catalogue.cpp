@@ -92,15 +92,15 @@ std::string shown(double number) {
 
 const std::vector<EstimatorMethod>& estimator_catalogue() {
     static const std::vector<EstimatorMethod> all = {
-        {"natural",
-         "natural neighbour (Sibson): smooth, adapts to the samples' density, nothing to tune",
-         {{.name = "smooth",
-           .default_value = "",
-           .unit = "",
-           .help = "no kinks at the samples; may leave the range of their values",
-           .flag = true}}},
-        {"laplace", "natural neighbour by faces instead of volumes (Laplace): faster, less smooth", {}},
-        {"linear", "linear in the cells of the samples' own Delaunay tessellation", {}},
+        {"natural", "natural neighbour (Sibson): smooth, adapts to the samples' density, nothing to tune",
+         Options{{.name = "smooth",
+                  .default_value = "",
+                  .unit = "",
+                  .help = "no kinks at the samples; may leave the range of their values",
+                  .flag = true}} +
+             anisotropy("1")},
+        {"laplace", "natural neighbour by faces instead of volumes (Laplace): faster, less smooth", anisotropy("1")},
+        {"linear", "linear in the cells of the samples' own Delaunay tessellation", anisotropy("1")},
         {"idw", "inverse distance over the nearest samples",
          Options{{.name = "power",
                   .default_value = "2",

@@ -52,11 +52,12 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& corners, const Vec3
 
 }  // namespace
 
-LinearInCells::LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults) : sites_(sites, faults) {}
+LinearInCells::LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy)
+    : sites_(sites, faults, anisotropy) {}
 
 void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
-        std::int32_t start = run.empty() ? 0 : sites_.tessellation().start_near(queries[run.front()].position);
+        std::int32_t start = run.empty() ? 0 : sites_.start_near(queries[run.front()].position);
         for (const std::uint32_t i : run) {
             estimate(queries[i].position, start, out[i]);
             sites_.number_as_given(out[i]);
@@ -64,8 +65,10 @@ void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weigh
     });
 }
 
-void LinearInCells::estimate(const Vec3& q, std::int32_t& start, Weights& out) const {
-    const auto at = sites_.locate(q, start, out);
+void LinearInCells::estimate(const Vec3& place, std::int32_t& start, Weights& out) const {
+    const SiteQuery query = sites_.query(place);
+    const Vec3& q = query.at;
+    const auto at = sites_.locate(query, start, out);
     if (at.cell < 0) {
         return;
     }
@@ -75,7 +78,7 @@ void LinearInCells::estimate(const Vec3& q, std::int32_t& start, Weights& out) c
     for (std::size_t k = 0; k < 4; ++k) {
         corners[k] = mesh.points()[static_cast<std::size_t>(cell.vertex[k])];
     }
-    sites_.weigh(q, cell.vertex, barycentric(corners, q, out.fallback), out);
+    sites_.weigh(query, cell.vertex, barycentric(corners, q, out.fallback), out);
 }
 
 }  // namespace terratet

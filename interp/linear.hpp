@@ -17,12 +17,12 @@ namespace terratet {
 class LinearInCells final : public Estimator {
   public:
     /// \pre as make_estimator's. O(n log n), about 6 µs a site.
-    LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults);
+    LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
 
   private:
-    void estimate(const Vec3& q, std::int32_t& start, Weights& out) const;
+    void estimate(const Vec3& place, std::int32_t& start, Weights& out) const;
 
     SiteMesh sites_;
 };

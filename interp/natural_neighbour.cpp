@@ -104,25 +104,29 @@ struct NaturalNeighbour::Impl {
     std::optional<SiteGradients> gradients;
 
     Impl(const std::vector<Vec3>& places, const FaultProximity* faults, NaturalNeighbourOptions given)
-        : sites(places, faults), options(given) {
+        : sites(places, faults, given.anisotropy), options(given) {
         if (options.smooth) {
             gradients.emplace(sites);
         }
     }
 
     /// \param start  a cell to walk from; where the walk ended on return
-    void estimate(const Vec3& q, std::int32_t& start, Workspace& work, Weights& out) const {
-        const auto at = sites.locate(q, start, out);
+    void estimate(const Vec3& place, std::int32_t& start, Workspace& work, Weights& out) const {
+        const SiteQuery query = sites.query(place);
+        const auto at = sites.locate(query, start, out);
         if (at.cell < 0) {
             return;
         }
+        const Vec3& q = query.at;
         const CompactDelaunay& mesh = sites.tessellation();
         work.cavity.find(mesh, q, at);
         if (!shares_in_doubles(mesh, q, options.weighting, work)) {
-            exact_shares(mesh, work.cavity, q, options.weighting, work.shares);
+            if (!wide_shares(mesh, work.cavity, q, options.weighting, work.shares)) {
+                exact_shares(mesh, work.cavity, q, options.weighting, work.shares);
+            }
             out.fallback = true;
         }
-        sites.weigh(q, work.cavity.vertices, work.shares, out);
+        sites.weigh(query, work.cavity.vertices, work.shares, out);
         if (gradients && out.terms.size() > 1) {
             add_gradients(q, work, out);
         }
@@ -177,7 +181,7 @@ NaturalNeighbour::~NaturalNeighbour() = default;
 void NaturalNeighbour::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
         thread_local Workspace work;
-        std::int32_t start = run.empty() ? 0 : impl_->sites.tessellation().start_near(queries[run.front()].position);
+        std::int32_t start = run.empty() ? 0 : impl_->sites.start_near(queries[run.front()].position);
         for (const std::uint32_t i : run) {
             impl_->estimate(queries[i].position, start, work, out[i]);
             impl_->sites.number_as_given(out[i]);

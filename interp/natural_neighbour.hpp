@@ -24,14 +24,15 @@
 /// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value.
 ///
 /// Accuracy: a result is accepted if |Σ wᵢpᵢ − q| ≤ 1e-9·R, R the radius of the sphere around the cell that contains
-/// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in rational numbers. Weights::fallback says
-/// so.
+/// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in floats of 113 bits, held to 1e-15, or where
+/// even they fail in rational numbers. Weights::fallback says so.
 ///
 /// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~750 bytes a site. Smooth:
 /// some times that, and 32 bytes more for each pair of neighbours.
 
 #include <memory>
 
+#include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 
 namespace terratet {
@@ -40,6 +41,7 @@ struct NaturalNeighbourOptions {
     enum class Weighting { sibson, laplace };
     Weighting weighting = Weighting::sibson;
     bool smooth = false;  ///< \pre only with Sibson's
+    Anisotropy anisotropy{};
 };
 
 class NaturalNeighbour final : public Estimator {

@@ -92,7 +92,7 @@ void fit(const SiteMesh& sites, std::int32_t site, const std::vector<Neighbour>&
         if (!(lambda > 0) || sites.tessellation().is_ghost(vertex)) {
             continue;
         }
-        const double seen = sites.openness(p, vertex);
+        const double seen = sites.openness(sites.place(site), vertex);
         if (seen > 0) {
             const Vec3 d = points[static_cast<std::size_t>(vertex)] - p;
             const Eigen::Vector3d v(d.x, d.y, d.z);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interp/morton.hpp"
+#include "tess/error.hpp"
 
 namespace terratet {
 namespace {
@@ -19,39 +20,58 @@ std::vector<Vec3> permuted(const std::vector<Vec3>& places, const std::vector<st
     return out;
 }
 
-}  // namespace
-
-SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults)
-    : original_(morton_order(sites)),
-      mesh_(permuted(sites, original_)),
-      faults_(faults && !faults->empty() ? faults : nullptr),
-      index_(mesh_.points().first(sites.size()), faults) {}
-
-double SiteMesh::openness(const Vec3& q, std::int32_t vertex) const {
-    if (!faults_) {
-        return 1;
+/// Where the sites are in the metric's coordinates.
+std::vector<Vec3> in_metric(const std::vector<Vec3>& sites, const Anisotropy& anisotropy) {
+    if (anisotropy.isotropic()) {
+        return sites;
     }
-    return faults_->openness(q, mesh_.points()[static_cast<std::size_t>(vertex)]);
+    std::vector<Vec3> at(sites.size());
+    std::transform(sites.begin(), sites.end(), at.begin(), Metric(anisotropy));
+    std::vector<Vec3> sorted = at;
+    std::sort(sorted.begin(), sorted.end());
+    if (!std::all_of(at.begin(), at.end(), is_acceptable) ||
+        std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+        throw UsageError("ratio2 and ratio3 are so far from 1 that samples can no longer be told apart; take others");
+    }
+    return at;
 }
 
-CompactDelaunay::Location SiteMesh::locate(const Vec3& q, std::int32_t& start, Weights& out) const {
+}  // namespace
+
+SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults, const Anisotropy& anisotropy)
+    : SiteMesh(sites, in_metric(sites, anisotropy), faults, anisotropy) {}
+
+SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
+                   const Anisotropy& anisotropy)
+    : original_(morton_order(at)),
+      places_(anisotropy.isotropic() ? std::vector<Vec3>() : permuted(sites, original_)),
+      mesh_(permuted(at, original_)),
+      faults_(faults && !faults->empty() ? faults : nullptr),
+      index_(places_.empty() ? mesh_.points().first(sites.size()) : std::span<const Vec3>(places_), faults,
+             anisotropy) {}
+
+double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {
+    return faults_ ? faults_->openness(from, place(vertex)) : 1;
+}
+
+CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& start, Weights& out) const {
     constexpr CompactDelaunay::Location answered{-1, false};
     out.terms.clear();
     out.extrapolation = 0;
     out.fallback = false;
-    if (!mesh_.within_reach(q)) {
+    if (!mesh_.within_reach(q.at)) {
         out.extrapolation = 1;
-        if (!is_finite(q)) {
+        if (!is_finite(q.at)) {
             return answered;
         }
         nearest_visible(q, out);
         return answered;
     }
-    const auto at = mesh_.locate(q, start);
+    const auto at = mesh_.locate(q.at, start);
     start = at.cell;
     if (!at.strictly_inside) {
         for (const std::int32_t v : mesh_.cells()[static_cast<std::size_t>(at.cell)].vertex) {
-            if (mesh_.points()[static_cast<std::size_t>(v)] == q) {
+            if (mesh_.points()[static_cast<std::size_t>(v)] == q.at) {
                 out.terms = {{static_cast<std::uint32_t>(v), 1.0}};
                 return answered;
             }
@@ -60,7 +80,7 @@ CompactDelaunay::Location SiteMesh::locate(const Vec3& q, std::int32_t& start, W
     return at;
 }
 
-void SiteMesh::weigh(const Vec3& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
+void SiteMesh::weigh(const SiteQuery& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
                      Weights& out) const {
     double ghosts = 0;
     bool any_site = false;
@@ -73,7 +93,7 @@ void SiteMesh::weigh(const Vec3& q, std::span<const std::int32_t> vertices, std:
             continue;
         }
         any_site = true;
-        const double weight = shares[v] * openness(q, vertices[v]);
+        const double weight = shares[v] * openness(q.place, vertices[v]);
         if (weight > 0) {
             out.terms.push_back({static_cast<std::uint32_t>(vertices[v]), weight});
         }
@@ -96,17 +116,18 @@ void SiteMesh::number_as_given(Weights& out) const {
     }
 }
 
-void SiteMesh::nearest_visible(const Vec3& q, Weights& out) const {
+void SiteMesh::nearest_visible(const SiteQuery& q, Weights& out) const {
     out.fallback = true;
     thread_local std::vector<NearSite> near;
-    index_.nearest(ValueQuery{q}, 1, near);
+    index_.nearest(ValueQuery{q.place}, 1, near);
     if (!near.empty()) {
         out.terms = {{near.front().site, 1.0}};
     }
 }
 
 std::size_t SiteMesh::memory_bytes() const {
-    return sizeof(*this) + original_.capacity() * sizeof(std::uint32_t) + mesh_.memory_bytes() + index_.memory_bytes();
+    return sizeof(*this) + original_.capacity() * sizeof(std::uint32_t) + places_.capacity() * sizeof(Vec3) +
+           mesh_.memory_bytes() + index_.memory_bytes();
 }
 
 void normalise(std::vector<SiteWeight>& terms) {

@@ -4,6 +4,9 @@
 /// \file
 /// What the estimators that read the sites' Delaunay tessellation share: the sites in Morton order, their tessellation,
 /// the faults, and the way from shares of sites and ghosts to weights of visible sites.
+///
+/// With an anisotropy everything is done in its metric's coordinates, ghosts and extrapolation as well, but for what
+/// faults hide: sight is along straight lines either way, and faults are where they are.
 
 #include <cstdint>
 #include <span>
@@ -15,14 +18,22 @@
 
 namespace terratet {
 
+/// A query, and where it is in the tessellation's coordinates.
+struct SiteQuery {
+    Vec3 place;
+    Vec3 at;
+};
+
 class SiteMesh {
   public:
-    /// \pre as make_estimator's
-    SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults);
+    /// \pre as make_estimator's. Throws UsageError where the anisotropy is so strong that sites coincide or lie beyond
+    /// acceptable coordinates.
+    SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
     SiteMesh(const SiteMesh&) = delete;
     SiteMesh& operator=(const SiteMesh&) = delete;
 
     [[nodiscard]] const CompactDelaunay& tessellation() const { return mesh_; }
+    [[nodiscard]] SiteQuery query(const Vec3& place) const { return {place, index_.metric()(place)}; }
     [[nodiscard]] bool has_faults() const { return faults_ != nullptr; }
 
     /// The caller's number of a site of the tessellation.
@@ -30,18 +41,27 @@ class SiteMesh {
         return original_[static_cast<std::size_t>(vertex)];
     }
 
+    /// A cell near a place to start a walk from.
+    [[nodiscard]] std::int32_t start_near(const Vec3& place) const { return mesh_.start_near(query(place).at); }
+
+    /// Of a site of the tessellation.
+    [[nodiscard]] const Vec3& place(std::int32_t vertex) const {
+        return places_.empty() ? mesh_.points()[static_cast<std::size_t>(vertex)]
+                               : places_[static_cast<std::size_t>(vertex)];
+    }
+
     /// 0 where a fault is in the way, 1 where none is near it (FaultProximity::openness).
-    [[nodiscard]] double openness(const Vec3& q, std::int32_t vertex) const;
+    [[nodiscard]] double openness(const Vec3& place, std::int32_t vertex) const;
 
     /// The cell that contains q, or −1 when `out` holds the answer already: on a site, beyond the ghosts' cube (the
     /// nearest visible site), and where q is not finite (no value). \param start  a cell to walk from; where the walk
     /// ended on return
-    CompactDelaunay::Location locate(const Vec3& q, std::int32_t& start, Weights& out) const;
+    CompactDelaunay::Location locate(const SiteQuery& q, std::int32_t& start, Weights& out) const;
 
     /// Shares that vertices (ghosts among them) have in q, to weights: ghosts' become the extrapolation, sites' count
     /// as far as they are visible and are renormalised; where none is, the nearest visible site. Terms are numbered as
     /// in the tessellation.
-    void weigh(const Vec3& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
+    void weigh(const SiteQuery& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
                Weights& out) const;
 
     /// From the tessellation's numbers to the caller's.
@@ -50,9 +70,13 @@ class SiteMesh {
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
-    void nearest_visible(const Vec3& q, Weights& out) const;
+    /// \param at  the sites in the tessellation's coordinates
+    SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
+             const Anisotropy& anisotropy);
+    void nearest_visible(const SiteQuery& q, Weights& out) const;
 
     std::vector<std::uint32_t> original_;
+    std::vector<Vec3> places_;  ///< of the sites, in the tessellation's order; empty: as in the tessellation
     CompactDelaunay mesh_;
     const FaultProximity* faults_;
     SiteIndex index_;

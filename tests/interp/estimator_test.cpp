@@ -51,7 +51,8 @@ TEST_CASE("Estimator specifications are written out with every default") {
     CHECK(parse_estimator("idw:max_points=4:radius=250.5:power=3").to_string() ==
           "idw:power=3:radius=250.5:max_points=4");
     CHECK(EstimatorSpec{}.to_string() == "natural");
-    for (const std::string text : {"nearest", "natural", "idw:power=1.5:radius=10:max_points=7"}) {
+    for (const std::string text :
+         {"nearest", "natural", "laplace:dip=30:ratio3=0.2", "idw:power=1.5:radius=10:max_points=7"}) {
         CHECK(parse_estimator(parse_estimator(text).to_string()).to_string() == text);
     }
 }
@@ -63,7 +64,8 @@ TEST_CASE("Wrong estimator specifications are refused with what there is") {
     CHECK(message_of("idw:pwr=2") ==
           "estimator 'idw' has no option 'pwr'; it has power, radius, max_points, "
           "per_octant, per_borehole, azimuth, dip, roll, ratio2, ratio3");
-    CHECK(message_of("natural:power=2") == "estimator 'natural' has no option 'power'; it has smooth");
+    CHECK(message_of("natural:power=2") ==
+          "estimator 'natural' has no option 'power'; it has smooth, azimuth, dip, roll, ratio2, ratio3");
     CHECK(message_of("idw:power=two") == "estimator 'idw': power='two' is not a number from 0 to 100");
     CHECK(message_of("idw:radius=-1") == "estimator 'idw': radius='-1' is not a number above 0");
     CHECK(message_of("idw:power=1:power=2") == "estimator 'idw': power is given twice");

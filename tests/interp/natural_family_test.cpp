@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What the estimators that read the samples' Delaunay tessellation have in common, and how they differ.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "estimation.hpp"
+#include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
+#include "tess/error.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;
@@ -21,25 +25,6 @@ const std::vector<std::string> by_distance = {"nearest", "idw", "kriging:nugget=
 std::unique_ptr<Estimator> estimator_of(const std::string& spec, const std::vector<Vec3>& sites,
                                         const FaultProximity* faults = nullptr) {
     return make_estimator(parse_estimator(spec), sites, faults);
-}
-
-std::vector<Weights> weights_at(const Estimator& estimator, const std::vector<Vec3>& places) {
-    std::vector<ValueQuery> queries(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        queries[i].position = places[i];
-    }
-    std::vector<Weights> out(places.size());
-    estimator.weights(queries, out);
-    return out;
-}
-
-std::vector<Vec3> places_in(const Box3& box, std::size_t count, std::uint64_t seed) {
-    Random random(seed);
-    std::vector<Vec3> places(count);
-    for (auto& p : places) {
-        p = random.in(box);
-    }
-    return places;
 }
 
 template <typename Field>
@@ -256,6 +241,7 @@ TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults h
         const FaultProximity proximity(faults);
         auto everyone = family;
         everyone.insert(everyone.end(), by_distance.begin(), by_distance.end());
+        everyone.emplace_back("natural:azimuth=30:dip=20:ratio2=0.5:ratio3=0.2");
         for (const auto& spec : everyone) {
             CAPTURE(name, spec);
             const auto weights = weights_at(*estimator_of(spec, sites, &proximity), places);
@@ -282,7 +268,9 @@ TEST_CASE("E1: estimates are continuous round the end of a half fault") {
     const FaultProximity proximity(faults);
     const auto sites = uniform_sites(1500, 61);
     const auto values = random_values(sites.size(), 62);
-    for (const auto& spec : family) {
+    auto continuous = family;
+    continuous.emplace_back("natural:azimuth=60:ratio3=0.3");
+    for (const auto& spec : continuous) {
         const auto estimator = estimator_of(spec, sites, &proximity);
         const double coarse = largest_step(*estimator, values, 1000);
         const double fine = largest_step(*estimator, values, 32'000);
@@ -299,6 +287,58 @@ TEST_CASE("E1: estimates are continuous round the end of a half fault") {
         INFO(spec << ": " << jump << ", and " << without << " without the fault");
         CHECK(jump > 1e-3);
     }
+}
+
+TEST_CASE("With anisotropy they are what they are without among sites turned and stretched") {
+    const auto sites = uniform_sites(800, 81);
+    const auto places = places_in({{-100, -100, -100}, {1100, 1100, 1100}}, 2000, 82);
+    const std::string options = ":azimuth=70:dip=25:roll=-15:ratio2=0.6:ratio3=0.15";
+    const Metric metric({.azimuth_deg = 70, .dip_deg = 25, .roll_deg = -15, .ratio2 = 0.6, .ratio3 = 0.15});
+    const auto moved = [&](std::vector<Vec3> points) {
+        std::transform(points.begin(), points.end(), points.begin(), metric);
+        return points;
+    };
+    for (const auto& spec : family) {
+        CAPTURE(spec);
+        const auto with = weights_at(*estimator_of(spec + options, sites), places);
+        const auto without = weights_at(*estimator_of(spec, moved(sites)), moved(places));
+        const auto plain = weights_at(*estimator_of(spec, sites), places);
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            REQUIRE(with[i].terms.size() == without[i].terms.size());
+            REQUIRE(with[i].extrapolation == without[i].extrapolation);
+            for (std::size_t k = 0; k < with[i].terms.size(); ++k) {
+                REQUIRE(with[i].terms[k].site == without[i].terms[k].site);
+                REQUIRE(with[i].terms[k].weight == without[i].terms[k].weight);
+            }
+            different +=
+                with[i].terms.size() != plain[i].terms.size() || with[i].extrapolation != plain[i].extrapolation;
+        }
+        CHECK(different > 200);
+        // A linear field stays one, and a site has its own value.
+        const auto linear = [](const Vec3& p) { return 1 + 0.2 * p.x - 0.3 * p.y + 0.1 * p.z; };
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (with[i].extrapolation == 0) {
+                REQUIRE(value(with[i], sites, linear) == Approx(linear(places[i])).epsilon(1e-10).margin(1e-8));
+            }
+        }
+        const auto on = weights_at(*estimator_of(spec + options, sites), {sites[17]}).front();
+        REQUIRE(on.terms.size() == 1);
+        CHECK(on.terms.front().site == 17);
+    }
+    CHECK_THROWS_AS(estimator_of("natural:ratio3=1e-30", sites), UsageError);
+    // Neighbours in the last bit may be turned onto one place: refused, never two sites at one place.
+    const std::vector<Vec3> close = {{1000, 1000, 0}, {1000, std::nextafter(1000.0, 2000.0), 0}, {0, 0, 0}};
+    std::size_t refused = 0;
+    for (int azimuth = 1; azimuth < 90; ++azimuth) {
+        try {
+            estimator_of("linear:ratio3=0.5:azimuth=" + std::to_string(azimuth), close);
+        } catch (const UsageError&) {
+            ++refused;
+        }
+    }
+    CHECK(refused > 0);
+    CHECK(refused < 89);
 }
 
 TEST_CASE("Few, collinear, coplanar and coincident-but-for-rounding sites give finite answers that sum to 1") {

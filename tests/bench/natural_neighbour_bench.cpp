@@ -7,6 +7,7 @@
 /// order, which it sorts itself; and singly in random order, as refinement asks.
 ///
 ///   natural_neighbour_bench [QUERIES=100000]
+///   natural_neighbour_bench --threads              what a second thread gains
 ///   natural_neighbour_bench --sites FILE SITES     what natural_neighbour_peer.py compares with SciPy: FILE holds
 ///                                                  x, y, z as doubles, SITES sites, then the queries; prints rates
 ///                                                  of natural, laplace, linear and natural:smooth
@@ -136,7 +137,9 @@ void compare(const char* name, const std::vector<Vec3>& sites, const std::vector
     std::fflush(stdout);
 }
 
-/// Best of several runs in turns: other programs on the machine take the second core more often than the first.
+/// The gain of a second thread by the clock: best of many short runs in turns, since other programs on the machine take
+/// the second core more often than the first. And the processor's time of both, since threads that hinder each other
+/// take more of it together.
 void threads(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
     const NaturalNeighbour estimator(sites, nullptr);
     std::vector<ValueQuery> queries;
@@ -144,16 +147,20 @@ void threads(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
         queries.push_back({p});
     }
     std::vector<Weights> weights(queries.size());
-    double best[2] = {1e9, 1e9};
-    for (int i = 0; i < 12; ++i) {
+    constexpr int runs = 40;
+    double wall[2] = {1e9, 1e9}, cpu[2] = {1e9, 1e9};
+    for (int i = 0; i < 2 * runs; ++i) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1 + i % 2);
-        const double start = wall_s();
+        const double start = wall_s(), cpu_start = process_cpu_s();
         estimator.weights(queries, weights);
-        best[i % 2] = std::min(best[i % 2], wall_s() - start);
+        wall[i % 2] = std::min(wall[i % 2], wall_s() - start);
+        cpu[i % 2] = std::min(cpu[i % 2], process_cpu_s() - cpu_start);
     }
     const auto count = static_cast<double>(queries.size());
-    std::printf("\n%zu uniform sites, wall time, best of 6: one thread %.1f k queries/s, two %.1f k, %.2f times\n",
-                sites.size(), count / best[0] / 1000, count / best[1] / 1000, best[0] / best[1]);
+    std::printf(
+        "%zu uniform sites, best of %d: one thread %.1f k queries/s by the clock, two %.1f k, %.2f times; two threads "
+        "take %.2f times the processor's time of one\n",
+        sites.size(), runs, count / wall[0] / 1000, count / wall[1] / 1000, wall[0] / wall[1], cpu[1] / cpu[0]);
 }
 
 /// For the peer: rates of the family on given sites and queries, one thread.
@@ -178,6 +185,10 @@ int main(int argc, char** argv) {
         rates_on(argv[2], std::strtoull(argv[3], nullptr, 10));
         return 0;
     }
+    if (argc == 2 && std::string(argv[1]) == "--threads") {
+        threads(testing::uniform_sites(100'000), random_places(100'000));
+        return 0;
+    }
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000;
     const auto places = random_places(count);
     std::printf("%zu queries, one thread, medians of %d runs by its CPU time\n\n", count, repeats);
@@ -192,5 +203,4 @@ int main(int argc, char** argv) {
     compare("400 wells x 250", testing::borehole_sites(400, 250), places, 2'000);
     const std::vector<Vec3> few(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count / 50));
     compare("4 wells x 323", testing::borehole_sites(4, 323), few, 0);
-    threads(testing::uniform_sites(100'000), places);
 }

@@ -22,6 +22,13 @@ inline double cpu_s() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+/// Of all threads of the process.
+inline double process_cpu_s() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 /// Median by the given clock of `repeats` calls, in seconds.
 template <typename Work>
 double median_seconds(int repeats, double (*clock)(), Work work) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <string_view>
 
+#include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -94,7 +95,7 @@ std::string reason(const GdalScope& scope) {
 std::string layer_names(GDALDataset& dataset) {
     std::string names;
     for (const OGRLayer* layer : dataset.GetLayers()) {
-        names += (names.empty() ? "" : ", ") + utf8(const_cast<OGRLayer*>(layer)->GetName());
+        names += (names.empty() ? "" : ", ") + to_utf8(const_cast<OGRLayer*>(layer)->GetName());
     }
     return names.empty() ? "none" : names;
 }
@@ -153,14 +154,14 @@ OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope
     return *layer;
 }
 
-std::string utf8(const char* text) {
-    if (CPLIsUTF8(text, -1) != 0) {
-        return text;
-    }
-    char* const recoded = CPLRecode(text, "CP1252", CPL_ENC_UTF8);
-    std::string result(recoded);
-    CPLFree(recoded);
-    return result;
+Crs crs_of(OGRLayer& layer) {
+    const OGRSpatialReference* const reference = layer.GetSpatialRef();
+    char* wkt = nullptr;
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    const bool stated = reference && reference->exportToWkt(&wkt, options) == OGRERR_NONE;
+    Crs crs = stated ? crs_from_wkt(wkt) : Crs{};
+    CPLFree(wkt);
+    return crs;
 }
 
 }  // namespace terratet

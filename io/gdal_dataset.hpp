@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "io/crs.hpp"
 #include "io/gdal_scope.hpp"
 #include "io/source.hpp"
 
@@ -33,7 +34,7 @@ struct ResultSetReleaser {
 using ResultSet = std::unique_ptr<OGRLayer, ResultSetReleaser>;
 OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set);
 
-/// Text as UTF-8: unchanged when it is, else taken for Windows-1252.
-std::string utf8(const char* text);
+/// What the layer states; empty when that is nothing.
+Crs crs_of(OGRLayer& layer);
 
 }  // namespace terratet

@@ -7,6 +7,7 @@
 
 #include "io/read_surfaces.hpp"
 #include "io/rejections.hpp"
+#include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -128,7 +129,7 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
         diagnostics.note(note);
     }
     const Coordinates where = find_coordinates(table, columns);
-    const std::string default_name = source.layer.empty() ? CPLGetBasename(source.path.c_str()) : source.layer;
+    const std::string default_name = to_utf8(source.layer.empty() ? CPLGetBasename(source.path.c_str()) : source.layer);
     const int name_column = find_column(table, Meaning::name, columns);
     Rejections rejections(diagnostics, table.file);
     PointsByName groups = group(table, where, name_column, default_name, rejections);
@@ -161,7 +162,7 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
                              std::to_string(points.size()) + " points coincide with others and were left out");
         }
         surface.kind = kind;
-        surface.file = source.path;
+        surface.file = to_utf8(source.path);
         result.surfaces.push_back(std::move(surface));
     }
     if (result.surfaces.empty()) {

@@ -9,6 +9,7 @@
 #include "io/gdal_dataset.hpp"
 #include "io/read_surfaces.hpp"
 #include "io/rejections.hpp"
+#include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -123,24 +124,11 @@ int name_field(OGRFeatureDefn& definition, const Source& source, const ColumnNam
     Table header;
     header.file = source.describe();
     for (int i = 0; i < definition.GetFieldCount(); ++i) {
-        header.columns.push_back(utf8(definition.GetFieldDefn(i)->GetNameRef()));
+        header.columns.push_back(to_utf8(definition.GetFieldDefn(i)->GetNameRef()));
     }
     const int usual = find_optional_column(header, Meaning::name, columns);
     const int layer = definition.GetFieldIndex("layer");
     return usual < 0 && layer < 0 ? find_column(header, Meaning::name, columns) : usual < 0 ? layer : usual;
-}
-
-Crs crs_of(const OGRLayer& layer) {
-    const OGRSpatialReference* const reference = const_cast<OGRLayer&>(layer).GetSpatialRef();
-    if (!reference) {
-        return {};
-    }
-    char* wkt = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    const bool exported = reference->exportToWkt(&wkt, options) == OGRERR_NONE;
-    Crs crs = exported ? crs_from_wkt(wkt) : Crs{};
-    CPLFree(wkt);
-    return crs;
 }
 
 /// One feature's polygons, by name and record, before it is known how features join.
@@ -169,7 +157,7 @@ std::vector<Feature> read_features(OGRLayer& layer, int name_index, Rejections& 
             continue;
         }
         if (name_index >= 0 && record->IsFieldSetAndNotNull(name_index)) {
-            feature.name = utf8(record->GetFieldAsString(name_index));
+            feature.name = to_utf8(record->GetFieldAsString(name_index));
         }
         for_each_polygon(
             *geometry, [&](const OGRPolygon& polygon) { feature.polygons.push_back(rings_of(polygon)); },
@@ -212,7 +200,7 @@ RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const Colu
     if (scope.failed()) {
         rejections.add(0, [&] { return "reading was not complete: " + scope.failure(); });
     }
-    name_the_nameless(features, source.layer.empty() ? utf8(layer.GetName()) : source.layer);
+    name_the_nameless(features, to_utf8(source.layer.empty() ? layer.GetName() : source.layer));
 
     std::map<std::string, SurfaceBuilder> builders;
     for (const Feature& feature : features) {
@@ -227,7 +215,7 @@ RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const Colu
         if (!builder.empty()) {
             Surface surface = builder.finish(name);
             surface.kind = kind;
-            surface.file = source.path;
+            surface.file = to_utf8(source.path);
             result.surfaces.push_back(std::move(surface));
         }
     }

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "io/gdal_dataset.hpp"
+#include "io/text_lines.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -24,7 +25,7 @@ namespace terratet {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
+std::string without_blanks(const std::string& text) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
@@ -48,7 +49,7 @@ std::string cell_text(const OGRFeature& feature, int field) {
         const double value = feature.GetFieldAsDouble(field);
         return definition.GetSubType() == OFSTFloat32 ? shortest(static_cast<float>(value)) : shortest(value);
     }
-    return trimmed(utf8(feature.GetFieldAsString(field)));
+    return without_blanks(to_utf8(feature.GetFieldAsString(field)));
 }
 
 /// The position of a point geometry (or of a multi-point of one); z NaN when it has none.
@@ -62,19 +63,6 @@ std::optional<Vec3> point_of(const OGRGeometry* geometry) {
     }
     const OGRPoint& point = *geometry->toPoint();
     return Vec3{point.getX(), point.getY(), point.Is3D() != 0 ? point.getZ() : missing};
-}
-
-Crs crs_of(OGRLayer& layer) {
-    const OGRSpatialReference* reference = layer.GetSpatialRef();
-    char* wkt = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    if (reference == nullptr || reference->exportToWkt(&wkt, options) != OGRERR_NONE) {
-        CPLFree(wkt);
-        return {};
-    }
-    Crs crs = crs_from_wkt(wkt);
-    CPLFree(wkt);
-    return crs;
 }
 
 bool all_digits(std::string_view text) {
@@ -100,7 +88,7 @@ Table read_layer(OGRLayer& layer, const Source& source) {
     table.crs = crs_of(layer);
     OGRFeatureDefn& definition = *layer.GetLayerDefn();
     for (int field = 0; field < definition.GetFieldCount(); ++field) {
-        table.columns.push_back(trimmed(utf8(definition.GetFieldDefn(field)->GetNameRef())));
+        table.columns.push_back(without_blanks(to_utf8(definition.GetFieldDefn(field)->GetNameRef())));
     }
     table.cells.resize(table.columns.size());
     layer.ResetReading();

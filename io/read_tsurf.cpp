@@ -231,7 +231,7 @@ void Parser::begin_object(std::string_view rest) {
     surface_ = {};
     surface_.name = to_utf8(CPLGetBasename(file_.c_str()));
     surface_.kind = kind_;
-    surface_.file = file_;
+    surface_.file = to_utf8(file_);
     ids_ = {};
     scale_ = {1, 1, 1};
 }

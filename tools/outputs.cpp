@@ -150,7 +150,8 @@ JournalEntry journal_entry(const std::string& command, const std::vector<Given>&
             arguments[option.name] = option.values;
         }
     }
-    return {0, fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now())), command, arguments.dump()};
+    return {0, fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now())), command,
+            arguments.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};
 }
 
 }  // namespace terratet::tools

@@ -20,14 +20,16 @@ struct Share {
     std::map<double, double> length_of;  ///< category: by class
     bool single = true;                  ///< all values so far are equal …
     double first = missing;              ///< … to this one, as measured
+    Censoring censoring = Censoring::none;
 
-    void add(const Property& property, double value, double length) {
+    void add(const Property& property, double value, Censoring censored, double length) {
         const double scaled = to_scale(property, value);
         if (std::isnan(scaled)) {
             return;
         }
         single = single && (covered == 0 || value == first);
         first = value;
+        censoring = censoring | censored;
         covered += length;
         if (property.kind == Kind::categorical) {
             length_of[value] += length;
@@ -65,13 +67,14 @@ bool is_interval(const Samples& samples, std::size_t i) {
 
 /// Appends one sample.
 void append(Samples& samples, const Vec3& position, std::int32_t hole, double depth, double length,
-            const std::vector<double>& values) {
+            const std::vector<double>& values, const std::vector<Censoring>& censored) {
     samples.positions.push_back(position);
     samples.borehole.push_back(hole);
     samples.depth.push_back(depth);
     samples.length.push_back(length);
     for (std::size_t p = 0; p < values.size(); ++p) {
         samples.values[p].push_back(values[p]);
+        samples.censored[p].push_back(censored[p]);
     }
 }
 
@@ -92,7 +95,7 @@ std::map<std::int64_t, Shares> shares_of(const Site& site, const std::vector<std
             auto& shares = composites[k];
             shares.resize(site.properties.size());
             for (std::size_t p = 0; p < site.properties.size(); ++p) {
-                shares[p].add(site.properties[p], site.samples.values[p][i], shared);
+                shares[p].add(site.properties[p], site.samples.values[p][i], site.samples.censoring(p, i), shared);
             }
         }
     }
@@ -109,17 +112,20 @@ void append_composites(const Site& site, std::int32_t hole, const std::vector<st
         const double begin = static_cast<double>(k) * length;
         const double whole = std::min(begin + length, deepest) - begin;
         std::vector<double> values;
+        std::vector<Censoring> censored;
         bool any = false;
         for (std::size_t p = 0; p < shares.size(); ++p) {
             const bool enough = shares[p].covered >= covered_min * whole - rounding * length;
-            values.push_back(enough && shares[p].covered > 0 ? shares[p].value(site.properties[p]) : missing);
+            const bool has_value = enough && shares[p].covered > 0;
+            values.push_back(has_value ? shares[p].value(site.properties[p]) : missing);
+            censored.push_back(has_value ? shares[p].censoring : Censoring::none);
             any = any || !std::isnan(values.back());
             report.dropped += !enough && shares[p].covered > 0 ? 1 : 0;
         }
         if (any) {
             const double middle = begin + 0.5 * whole;
             const Vec3 place = at_depth(site.boreholes[static_cast<std::size_t>(hole)], middle);
-            append(out, site.frame.snapped(place), hole, middle, whole, values);
+            append(out, site.frame.snapped(place), hole, middle, whole, values, censored);
             ++report.composites;
         }
     }
@@ -132,6 +138,7 @@ CompositeReport composite(Site& site, double length) {
     CompositeReport report;
     Samples out;
     out.values.resize(site.properties.size());
+    out.censored.resize(site.properties.size());
     std::map<std::int32_t, std::vector<std::uint32_t>> intervals;
     for (std::uint32_t i = 0; i < site.samples.size(); ++i) {
         if (is_interval(site.samples, i)) {
@@ -140,11 +147,13 @@ CompositeReport composite(Site& site, double length) {
             continue;
         }
         std::vector<double> values;
-        for (const auto& column : site.samples.values) {
-            values.push_back(column[i]);
+        std::vector<Censoring> censored;
+        for (std::size_t p = 0; p < site.properties.size(); ++p) {
+            values.push_back(site.samples.values[p][i]);
+            censored.push_back(site.samples.censoring(p, i));
         }
         append(out, site.samples.positions[i], site.samples.borehole[i], site.samples.depth[i], site.samples.length[i],
-               values);
+               values, censored);
     }
     for (const auto& [hole, of_hole] : intervals) {
         append_composites(site, hole, of_hole, length, out, report);

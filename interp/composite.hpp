@@ -19,8 +19,9 @@ struct CompositeReport {
 /// … Each property's value is the mean of the intervals' weighted by the length they share with the composite, in its
 /// scale; of a category the class with the largest share (ties: the smaller index). Gaps are not bridged: a property
 /// needs values over half of the composite (of what the hole's end leaves of the last one), else it has none there; a
-/// composite without any is left out. A composite stands at the middle of its depths on the borehole's path. Point
-/// samples and loose ones stay as they are. Result in canonical order. O(n log n). \pre length > 0
+/// composite without any is left out. With a censored part the composite is censored. A composite stands at the middle
+/// of its depths on the borehole's path. Point samples and loose ones stay as they are. Result in canonical order. O(n
+/// log n). \pre length > 0
 CompositeReport composite(Site& site, double length);
 
 }  // namespace terratet

@@ -47,6 +47,9 @@ std::size_t place_for(const Property& property, Model& model) {
     }
     model.properties.emplace_back();
     model.samples.values.emplace_back(model.samples.size(), missing);
+    if (!model.samples.censored.empty()) {
+        model.samples.censored.emplace_back(model.samples.size(), Censoring::none);
+    }
     model.vertex_values.values.emplace_back();
     return model.properties.size() - 1;
 }

@@ -170,6 +170,14 @@ int find_column(const Table& table, Meaning meaning, const ColumnNames& override
     return column;
 }
 
+std::optional<double> parse_bound(const std::string& text) {
+    if (text.empty() || (text.front() != '<' && text.front() != '>')) {
+        return std::nullopt;
+    }
+    const std::size_t begin = text.size() > 1 && text[1] == '=' ? 2 : 1;
+    return parse_number(text.substr(begin));
+}
+
 std::optional<double> parse_number(const std::string& text) {
     std::size_t begin = text.find_first_not_of(" \t");
     if (begin == std::string::npos) {

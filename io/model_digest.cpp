@@ -121,8 +121,9 @@ class Hash {
         add_all(crs_wkt, crs_name, unit, metres_per_unit, origin, z_scale);
     }
     void add(const Samples& s) {
-        const auto& [positions, borehole, depth, length, values] = s;
+        const auto& [positions, borehole, depth, length, values, censored] = s;
         add_all(positions, borehole, depth, length, values);
+        add(s.any_censored() ? censored : decltype(s.censored){});  // there or not, it means the same
     }
     void add(const Domain& d) {
         const auto& [extent, hull] = d;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <tuple>
 
 #include "io/model_meta.hpp"
 #include "io/model_schema.hpp"
@@ -44,6 +45,16 @@ std::vector<T> unpack(const LayerReader& layer, std::span<const std::byte> bytes
     return result;
 }
 
+Censoring censoring(const LayerReader& layer, Column column) {
+    const auto text = layer.text_at(column).value_or("");
+    for (const Censoring known : {Censoring::none, Censoring::below, Censoring::above, Censoring::both}) {
+        if (text == to_string(known)) {
+            return known;
+        }
+    }
+    layer.fail("\"" + text + "\" is none of <, > and <>");
+}
+
 /// Reads all layers of one model from an open dataset, checking every row.
 class ModelReader {
   public:
@@ -73,6 +84,7 @@ class ModelReader {
     std::string file_;
     Model model_;
     std::vector<std::string> columns_;
+    std::vector<std::string> censored_columns_;
     std::vector<std::map<std::string, double>> classes_;  ///< of each property
     RowIndex borehole_rows_, sample_rows_;
     std::map<std::int64_t, std::size_t> fault_of_sheet_row_;
@@ -142,9 +154,10 @@ void ModelReader::read_boreholes() {
 
 void ModelReader::read_samples() {
     LayerReader layer = this->layer(schema::samples);
-    const schema::SampleColumns columns(layer, model_.properties, columns_);
+    const schema::SampleColumns columns(layer, model_.properties, columns_, censored_columns_);
     Samples& samples = model_.samples;
     samples.values.resize(model_.properties.size());
+    std::vector<std::tuple<std::size_t, std::size_t, Censoring>> censored;
     while (layer.next()) {
         std::int32_t borehole = -1;
         if (const auto row = layer.integer_at(columns.hole)) {
@@ -159,7 +172,15 @@ void ModelReader::read_samples() {
         samples.depth.push_back(layer.number_at(columns.depth));
         samples.length.push_back(layer.number_at(columns.length));
         append_values(layer, columns.values, samples.values);
+        for (std::size_t p = 0; p < columns.censored.size(); ++p) {
+            if (columns.censored[p]) {
+                censored.push_back({p, samples.size() - 1, censoring(layer, *columns.censored[p])});
+            }
+        }
         sample_rows_.add(layer.row_number());
+    }
+    for (const auto& [property, sample, censoring] : censored) {
+        samples.set_censoring(property, sample, censoring);
     }
 }
 
@@ -331,6 +352,7 @@ Model ModelReader::read() {
     MetaContent meta = from_meta(read_meta(), file_);
     model_ = std::move(meta.model);
     columns_ = std::move(meta.property_columns);
+    censored_columns_ = std::move(meta.censored_columns);
     for (const Property& property : model_.properties) {
         auto& classes = classes_.emplace_back();
         for (const std::string& name : property.classes) {

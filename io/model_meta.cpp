@@ -67,7 +67,8 @@ Frame frame_of(const json& j) {
             number(j.at("z_scale"))};
 }
 
-json properties_json(const std::vector<Property>& properties, const std::vector<std::string>& columns) {
+json properties_json(const std::vector<Property>& properties, const std::vector<std::string>& columns,
+                     const std::vector<std::string>& censored_columns) {
     json result = json::array();
     for (std::size_t i = 0; i < properties.size(); ++i) {
         const Property& p = properties[i];
@@ -77,6 +78,9 @@ json properties_json(const std::vector<Property>& properties, const std::vector<
                           {"scale", p.scale == Scale::log10 ? "log10" : "linear"},
                           {"kind", p.kind == Kind::categorical ? "categorical" : "continuous"},
                           {"classes", p.classes}});
+        if (!censored_columns[i].empty()) {
+            result.back()["censored_column"] = censored_columns[i];
+        }
     }
     return result;
 }
@@ -205,18 +209,37 @@ std::string fit_column(const std::string& name) {
     return first == std::string::npos ? "property" : result.substr(first, result.find_last_not_of(' ') - first + 1);
 }
 
+/// With a number behind where it is taken, in any case; taken from now on.
+std::string distinct_column(const std::string& wanted, std::set<std::string>& taken) {
+    std::string column = wanted;
+    for (int n = 2; !taken.insert(ascii_lower(column)).second; ++n) {
+        column = wanted + "_" + std::to_string(n);
+    }
+    return column;
+}
+
 }  // namespace
 
 std::vector<std::string> schema::property_columns(const std::vector<Property>& properties) {
     std::set<std::string> taken = reserved_columns();
     std::vector<std::string> columns;
     for (const Property& property : properties) {
-        const std::string fit = fit_column(property.name);
-        std::string column = fit;
-        for (int n = 2; !taken.insert(ascii_lower(column)).second; ++n) {
-            column = fit + "_" + std::to_string(n);
+        columns.push_back(distinct_column(fit_column(property.name), taken));
+    }
+    return columns;
+}
+
+std::vector<std::string> schema::censored_columns(const std::vector<std::string>& property_columns,
+                                                  const Samples& samples) {
+    std::set<std::string> taken = reserved_columns();
+    for (const std::string& column : property_columns) {
+        taken.insert(ascii_lower(column));
+    }
+    std::vector<std::string> columns(property_columns.size());
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+        if (samples.censored_count(p) > 0) {
+            columns[p] = distinct_column(property_columns[p] + "_censored", taken);
         }
-        columns.push_back(column);
     }
     return columns;
 }
@@ -226,10 +249,11 @@ RowCounts row_counts(const Model& model) {
             model.vertices.size()};
 }
 
-Meta to_meta(const Model& model, const std::vector<std::string>& property_columns) {
+Meta to_meta(const Model& model, const std::vector<std::string>& property_columns,
+             const std::vector<std::string>& censored_columns) {
     return {{"format_version", std::to_string(schema::format_version)},
             {"frame", frame_json(model.frame).dump()},
-            {"properties", properties_json(model.properties, property_columns).dump()},
+            {"properties", properties_json(model.properties, property_columns, censored_columns).dump()},
             {"criteria", criteria_json(model.criteria).dump()},
             {"density", model.density == DensityMode::paper ? "paper" : "canonical"},
             {"fault_options", fault_options_json(model.fault_options).dump()},
@@ -265,6 +289,7 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
         for (const json& property : parsed("properties")) {
             content.model.properties.push_back(property_of(property));
             content.property_columns.push_back(property.at("column").get<std::string>());
+            content.censored_columns.push_back(property.value("censored_column", ""));
         }
         content.model.criteria = criteria_of(parsed("criteria"));
         content.model.fault_options = fault_options_of(parsed("fault_options"));

@@ -23,12 +23,15 @@ struct RowCounts {
 RowCounts row_counts(const Model& model);
 
 /// Values are JSON but for plain words; doubles have all the digits they need.
-Meta to_meta(const Model& model, const std::vector<std::string>& property_columns);
+/// \param censored_columns  schema::censored_columns
+Meta to_meta(const Model& model, const std::vector<std::string>& property_columns,
+             const std::vector<std::string>& censored_columns);
 
 /// What the file says of itself, from meta alone; rows are still empty.
 struct MetaContent {
     Model model;
     std::vector<std::string> property_columns;
+    std::vector<std::string> censored_columns;  ///< empty texts for properties without
     RowCounts counts;
     std::string digest;  ///< empty when not stored
 };

@@ -18,8 +18,6 @@
 namespace terratet {
 namespace {
 
-using schema::property_columns;
-
 bool is_connection(const std::string& path) {
     return path.starts_with("PG:");
 }
@@ -87,7 +85,8 @@ class ModelWriter {
           scope_(scope),
           file_(std::move(file)),
           model_(model),
-          columns_(property_columns(model.properties)) {
+          columns_(schema::property_columns(model.properties)),
+          censored_columns_(schema::censored_columns(columns_, model.samples)) {
         // A text that is no CRS (or none) leaves the layers without; the text itself is in the meta layer.
         const GdalScope quiet;
         if (!model.frame.crs_wkt.empty() && reference_.importFromWkt(model.frame.crs_wkt.c_str()) == OGRERR_NONE) {
@@ -135,6 +134,7 @@ class ModelWriter {
     std::string file_;
     const Model& model_;
     std::vector<std::string> columns_;
+    std::vector<std::string> censored_columns_;
     OGRSpatialReference reference_;
     bool has_reference_ = false;
 };
@@ -177,7 +177,7 @@ void ModelWriter::write_boreholes() {
 
 void ModelWriter::write_samples() {
     LayerWriter layer = this->layer(schema::samples, wkbPoint25D);
-    const schema::SampleColumns columns(layer, model_.properties, columns_);
+    const schema::SampleColumns columns(layer, model_.properties, columns_, censored_columns_);
     layer.create();
     const Samples& samples = model_.samples;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -189,6 +189,11 @@ void ModelWriter::write_samples() {
         layer.set(columns.depth, samples.depth[i]);
         layer.set(columns.length, samples.length[i]);
         set_values(layer, columns.values, samples.values, i);
+        for (std::size_t p = 0; p < columns.censored.size(); ++p) {
+            if (const Censoring censoring = samples.censoring(p, i); censoring != Censoring::none) {
+                layer.set(*columns.censored[p], std::string(to_string(censoring)));
+            }
+        }
         layer.set_point(world(samples.positions[i]));
         layer.write();
     }
@@ -300,7 +305,7 @@ void ModelWriter::write_meta() {
     LayerWriter layer = this->layer(schema::meta, wkbNone);
     const schema::MetaColumns columns(layer);
     layer.create();
-    for (const auto& [key, value] : to_meta(model_, columns_)) {
+    for (const auto& [key, value] : to_meta(model_, columns_, censored_columns_)) {
         layer.set(columns.key, key);
         layer.set(columns.value, value);
         layer.write();

@@ -4,11 +4,13 @@
 /// \file
 /// Layers and columns of the model file (docs/model-file.md), for writing and reading alike. Private to this floor.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/model_layer.hpp"
 #include "tess/property.hpp"
+#include "tess/samples.hpp"
 
 namespace terratet::schema {
 
@@ -26,6 +28,9 @@ inline constexpr const char* changes = "terratet_changes";
 /// Column names of properties: the property's name where a database takes it as it is, else made fit and unique. The
 /// mapping is stored, so any name survives.
 std::vector<std::string> property_columns(const std::vector<Property>& properties);
+
+/// Of each property the column that says which of its samples are censored; empty where none is. Stored as well.
+std::vector<std::string> censored_columns(const std::vector<std::string>& property_columns, const Samples& samples);
 
 /// Numbers for continuous properties, text for classes.
 template <typename Layer>
@@ -51,13 +56,19 @@ struct BoreholeColumns {
 struct SampleColumns {
     Column borehole, hole, depth, length;
     std::vector<Column> values;
+    std::vector<std::optional<Column>> censored;  ///< of each property
     template <typename Layer>
-    SampleColumns(Layer& layer, const std::vector<Property>& properties, const std::vector<std::string>& names)
+    SampleColumns(Layer& layer, const std::vector<Property>& properties, const std::vector<std::string>& names,
+                  const std::vector<std::string>& censored_names)
         : borehole(layer.text("borehole")),
           hole(layer.integer("hole")),
           depth(layer.number("depth")),
           length(layer.number("length")),
-          values(value_columns(layer, properties, names)) {}
+          values(value_columns(layer, properties, names)) {
+        for (const std::string& name : censored_names) {
+            censored.push_back(name.empty() ? std::nullopt : std::optional(layer.text(name)));
+        }
+    }
 };
 
 struct SurfaceColumns {

@@ -46,12 +46,17 @@ LogColumns log_columns(const Table& table, const ColumnNames& names) {
     return columns;
 }
 
-std::vector<double> values_of_row(const std::vector<ValueColumn>& columns, std::size_t row, std::size_t properties) {
-    std::vector<double> values(properties, missing);
+/// Puts a row's values into a record.
+void set_values(SampleRecord& record, const std::vector<ValueColumn>& columns, std::size_t row,
+                std::size_t properties) {
+    record.values.assign(properties, missing);
     for (const ValueColumn& column : columns) {
-        values[column.property] = column.values[row];
+        record.values[column.property] = column.values[row];
+        if (!column.censored.empty()) {
+            record.censored.resize(properties, Censoring::none);
+            record.censored[column.property] = column.censored[row];
+        }
     }
-    return values;
 }
 
 bool has_value(const std::vector<ValueColumn>& columns, std::size_t row) {
@@ -142,8 +147,8 @@ void read_log(const Table& table, Holes& holes, const Crs& target, const SiteInp
     note_empty_records(table, empty, diagnostics);
     for (const LogRow& row : rows) {
         const double depth = row.from + (row.to - row.from) / 2;
-        samples.push_back({row.hole->path.position(depth), row.hole->id, depth, row.to - row.from,
-                           values_of_row(values, row.row, catalogue.properties().size())});
+        samples.push_back({row.hole->path.position(depth), row.hole->id, depth, row.to - row.from, {}});
+        set_values(samples.back(), values, row.row, catalogue.properties().size());
     }
 }
 
@@ -161,8 +166,8 @@ void read_loose_samples(const PlacedTable& placed, const SiteInputs& inputs, Pro
             ++empty;
             continue;
         }
-        samples.push_back(
-            {placed.points[row], "", missing, 0, values_of_row(values, row, catalogue.properties().size())});
+        samples.push_back({placed.points[row], "", missing, 0, {}});
+        set_values(samples.back(), values, row, catalogue.properties().size());
     }
     if (samples.size() == before && !values.empty()) {
         throw_no_usable_row(placed.table, diagnostics, first_rejection);

@@ -18,7 +18,8 @@ struct SampleRecord {
     std::string hole;  ///< empty: loose
     double depth = missing;
     double length = 0;
-    std::vector<double> values;  ///< by property; may be shorter than the catalogue, the rest is missing
+    std::vector<double> values;         ///< by property; may be shorter than the catalogue, the rest is missing
+    std::vector<Censoring> censored{};  ///< by property; may be shorter, the rest is not
 };
 
 /// An interval's values stand at its middle. Rejects records of holes without collar, without or with negative depths,

@@ -253,6 +253,11 @@ Samples samples_of(const std::vector<SampleRecord>& records, const std::vector<B
             samples.values[p].push_back(p < record.values.size() ? record.values[p] : missing);
         }
     }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        for (std::size_t p = 0; p < records[i].censored.size(); ++p) {
+            samples.set_censoring(p, i, records[i].censored[p]);
+        }
+    }
     return samples;
 }
 

@@ -66,4 +66,7 @@ std::string normal_header(const std::string& header);
 /// NaN and infinities are refused too.
 std::optional<double> parse_number(const std::string& text);
 
+/// A bound in place of a number, "<0.005" or ">= 100": what is right of the sign.
+std::optional<double> parse_bound(const std::string& text);
+
 }  // namespace terratet

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -38,17 +39,8 @@ bool is_placeholder(double value) {
 /// As low as a placeholder might be measured: a column that goes there means its -999.
 constexpr double plausible_low = -99;
 
-/// The bound of a censored value, "<0.005" or "> 100".
-std::optional<double> censored(const std::string& text) {
-    if (text.empty() || (text.front() != '<' && text.front() != '>')) {
-        return std::nullopt;
-    }
-    const std::size_t begin = text.size() > 1 && text[1] == '=' ? 2 : 1;
-    return parse_number(text.substr(begin));
-}
-
 bool is_number(const std::string& text) {
-    return parse_number(text) || censored(text);
+    return parse_number(text) || parse_bound(text);
 }
 
 /// Header without its bracketed unit, and the unit: "Cu (%)" → "Cu", "%".
@@ -184,31 +176,38 @@ void drop_without_logarithm(std::vector<double>& values, const std::string& wher
     }
 }
 
-std::vector<double> continuous_values(const Table& table, const Choice& choice, Diagnostics& diagnostics) {
+ValueColumn continuous_values(const Table& table, const Choice& choice, std::size_t index, Diagnostics& diagnostics) {
     const std::string where = table.file + ": column " + table.columns[choice.column];
-    std::vector<double> values;
-    std::size_t bounds = 0;
+    ValueColumn result{index, {}};
+    std::vector<Censoring> censored;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const std::string& text = table.cells[choice.column][row];
         std::optional<double> value = parse_number(text);
-        if (!value && (value = censored(text))) {
-            ++bounds;
+        censored.push_back(Censoring::none);
+        if (!value && (value = parse_bound(text))) {
+            censored.back() = text.front() == '<' ? Censoring::below : Censoring::above;
         }
         if (!value && !is_null_word(text)) {
             diagnostics.reject(table.file, table.lines[row],
                                fmt::format("column {}: '{}' is not a number; the record's other values are used",
                                            table.columns[choice.column], text));
         }
-        values.push_back(value.value_or(missing));
+        result.values.push_back(value.value_or(missing));
+    }
+    drop_placeholders(result.values, where, diagnostics);
+    if (choice.property.scale == Scale::log10) {
+        drop_without_logarithm(result.values, where, diagnostics);
+    }
+    std::size_t bounds = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        censored[row] = std::isnan(result.values[row]) ? Censoring::none : censored[row];
+        bounds += censored[row] != Censoring::none ? 1 : 0;
     }
     if (bounds > 0) {
         diagnostics.note(fmt::format("{}: {} censored values (<, >) count as their bound", where, bounds));
+        result.censored = std::move(censored);
     }
-    drop_placeholders(values, where, diagnostics);
-    if (choice.property.scale == Scale::log10) {
-        drop_without_logarithm(values, where, diagnostics);
-    }
-    return values;
+    return result;
 }
 
 /// Indices into `classes`, which grows; in order of appearance until PropertyCatalogue::finish.
@@ -236,7 +235,7 @@ std::vector<double> class_values(const Table& table, const Choice& choice, std::
 
 PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
     for (const std::string& text : wanted) {
-        wanted_.push_back(parse_property(text));
+        wanted_.push_back(parse_property(to_utf8(text)));
     }
 }
 
@@ -271,9 +270,9 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
     for (const Choice& choice : choices) {
         const std::size_t index = index_of(choice.property);
         std::vector<std::string>& classes = properties_[index].classes;
-        result.push_back({index, choice.property.kind == Kind::categorical
-                                     ? class_values(table, choice, classes)
-                                     : continuous_values(table, choice, diagnostics)});
+        result.push_back(choice.property.kind == Kind::categorical
+                             ? ValueColumn{index, class_values(table, choice, classes)}
+                             : continuous_values(table, choice, index, diagnostics));
     }
     return result;
 }

@@ -16,8 +16,9 @@ namespace terratet {
 
 /// The values of one property in one table.
 struct ValueColumn {
-    std::size_t property = 0;    ///< index in PropertyCatalogue::properties()
-    std::vector<double> values;  ///< a row each; missing where there is none
+    std::size_t property = 0;           ///< index in PropertyCatalogue::properties()
+    std::vector<double> values;         ///< a row each; missing where there is none
+    std::vector<Censoring> censored{};  ///< of each value; empty: none is
 };
 
 /// The properties of all tables together, in the order of tables and columns. The same name in any case is the same
@@ -30,9 +31,9 @@ class PropertyCatalogue {
     /// Reads a table's property columns. Without `wanted` those are the columns that carry no known meaning and hold
     /// numbers in at least half of their non-empty cells (others with a number in them are noted). Empty cells, NA,
     /// N/A, NaN, null, none and - are missing; -999, -999.25, -9999, … too where no other value is as low (noted);
-    /// "<0.005" counts as its bound (noted); any other text is rejected with line and column, the record's other values
-    /// are used. A table without any wanted property gives nothing (noted). Throws InputError: no numeric column (lists
-    /// those there are), or no number in a wanted one.
+    /// "<0.005" counts as its bound, and is marked as censored (noted); any other text is rejected with line and
+    /// column, the record's other values are used. A table without any wanted property gives nothing (noted). Throws
+    /// InputError: no numeric column (lists those there are), or no number in a wanted one.
     std::vector<ValueColumn> read(const Table& table, const ColumnNames& columns, Diagnostics& diagnostics);
 
     [[nodiscard]] const std::vector<Property>& properties() const { return properties_; }

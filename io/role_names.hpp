@@ -37,4 +37,21 @@ inline std::string owner_name(const Model& model, const Vertex& vertex) {
     return hole < 0 ? std::string() : model.boreholes[static_cast<std::size_t>(hole)].id;
 }
 
+/// Properties some of whose samples are censored.
+inline std::vector<std::size_t> censored_properties(const Model& model) {
+    std::vector<std::size_t> censored;
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (model.samples.censored_count(p) > 0) {
+            censored.push_back(p);
+        }
+    }
+    return censored;
+}
+
+/// Of a vertex's value: that of its sample; what is estimated is not.
+inline Censoring censoring_of(const Model& model, const Vertex& vertex, std::size_t property) {
+    return vertex.role == Role::sample ? model.samples.censoring(property, static_cast<std::size_t>(vertex.owner))
+                                       : Censoring::none;
+}
+
 }  // namespace terratet

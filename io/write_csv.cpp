@@ -16,20 +16,24 @@ namespace {
 
 constexpr const char* own_columns[] = {"x", "y", "z", "id", "role", "owner", "side", "extrapolation"};
 
-std::string header(const Model& model) {
+std::string header(const Model& model, const std::vector<std::size_t>& censored) {
     std::vector<std::string> names;
     for (const Property& property : model.properties) {
         names.push_back(property.name);
     }
-    std::string row = "x,y,z,id,role,owner,side";
-    for (const std::string& name : distinct_names(names, own_columns)) {
-        row += ',';
-        append_csv_text(row, name);
+    for (const std::size_t p : censored) {
+        names.push_back(model.properties[p].name + "_censored");
     }
-    return row + ",extrapolation\n";
+    names = distinct_names(std::move(names), own_columns);
+    std::string row = "x,y,z,id,role,owner,side";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        row += i == model.properties.size() ? ",extrapolation," : ",";
+        append_csv_text(row, names[i]);
+    }
+    return row + (censored.empty() ? ",extrapolation\n" : "\n");
 }
 
-void append_vertex(std::string& row, const Model& model, std::size_t v) {
+void append_vertex(std::string& row, const Model& model, const std::vector<std::size_t>& censored, std::size_t v) {
     const Vertex& vertex = model.vertices[v];
     const Vec3 place = model.frame.to_world(vertex.position);
     for (const double coordinate : {place.x, place.y, place.z}) {
@@ -49,6 +53,10 @@ void append_vertex(std::string& row, const Model& model, std::size_t v) {
     }
     row += ',';
     append_csv_number(row, model.vertex_values.extrapolation[v]);
+    for (const std::size_t p : censored) {
+        row += ',';
+        row += to_string(censoring_of(model, vertex, p));
+    }
     row += '\n';
 }
 
@@ -57,11 +65,12 @@ void append_vertex(std::string& row, const Model& model, std::size_t v) {
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options) {
     const Model& model = view.model;
     OutputFile file(path, options.overwrite);
-    file.write(header(model));
+    const auto censored = censored_properties(model);
+    file.write(header(model, censored));
     constexpr std::size_t batch = 4096;
     std::string rows;
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
-        append_vertex(rows, model, v);
+        append_vertex(rows, model, censored, v);
         if ((v + 1) % batch == 0) {
             file.write(rows);
             rows.clear();

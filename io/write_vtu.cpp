@@ -12,6 +12,7 @@
 #include "io/clipped_mesh.hpp"
 #include "io/column_names.hpp"
 #include "io/export.hpp"
+#include "io/role_names.hpp"
 #include "io/vtk_xml.hpp"
 
 namespace terratet {
@@ -117,6 +118,15 @@ std::vector<To> column_of(const std::vector<Vertex>& vertices, Member member) {
     return result;
 }
 
+std::vector<std::uint8_t> censoring_column(const Model& model, const std::vector<Vertex>& vertices, std::size_t p) {
+    std::vector<std::uint8_t> result;
+    result.reserve(vertices.size());
+    for (const Vertex& vertex : vertices) {
+        result.push_back(static_cast<std::uint8_t>(censoring_of(model, vertex, p)));
+    }
+    return result;
+}
+
 const char* scale_name(const Property& property) {
     return property.kind == Kind::categorical ? "categorical" : property.scale == Scale::log10 ? "log10" : "linear";
 }
@@ -162,7 +172,13 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     for (const Property& property : model.properties) {
         names.push_back(property.name);
     }
+    const auto censored = censored_properties(model);
+    for (const std::size_t p : censored) {
+        names.push_back(model.properties[p].name + "_censored");
+    }
     names = distinct_names(std::move(names), own_arrays);
+    const std::vector<std::string> censored_names(names.begin() + std::ssize(model.properties), names.end());
+    names.resize(model.properties.size());
 
     VtkPiece piece;
     piece.points = contents.points.size();
@@ -185,6 +201,11 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     piece.point_data.insert(piece.point_data.end(),
                             {vtk_array("role", role), vtk_array("owner", owner), vtk_array("side", side),
                              vtk_array("id", contents.ids), vtk_array("extrapolation", contents.extrapolation)});
+    std::vector<std::vector<std::uint8_t>> bounds;
+    for (std::size_t i = 0; i < censored.size(); ++i) {
+        bounds.push_back(censoring_column(model, contents.vertices, censored[i]));
+        piece.point_data.push_back(vtk_array(censored_names[i], bounds.back()));
+    }
     piece.active_scalars = names.empty() ? "" : names[0];
 
     const auto fault = inherited<std::int32_t>(view.cells.fault, contents.parent);

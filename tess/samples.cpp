@@ -37,6 +37,11 @@ int compare_values(const Samples& samples, std::uint32_t a, std::uint32_t b) {
             return order;
         }
     }
+    for (const auto& column : samples.censored) {
+        if (column[a] != column[b]) {
+            return column[a] < column[b] ? -1 : 1;
+        }
+    }
     return compare(samples.length[a], samples.length[b]);
 }
 
@@ -73,7 +78,48 @@ double merged_value(const Property& property, const std::vector<double>& column,
     return property.kind == Kind::categorical ? most_frequent(present) : mean(property, present);
 }
 
+/// That of what stands for the group.
+Censoring merged_censoring(const Samples& samples, std::size_t p, std::span<const std::uint32_t> group) {
+    Censoring merged = Censoring::none;
+    for (const std::uint32_t i : group) {
+        merged = merged | samples.censoring(p, i);
+    }
+    return merged;
+}
+
 }  // namespace
+
+const char* to_string(Censoring censoring) {
+    constexpr const char* names[] = {"", "<", ">", "<>"};
+    return names[static_cast<std::size_t>(censoring)];
+}
+
+std::size_t Samples::censored_count(std::size_t property) const {
+    if (censored.empty()) {
+        return 0;
+    }
+    const auto& column = censored[property];
+    return column.size() - static_cast<std::size_t>(std::ranges::count(column, Censoring::none));
+}
+
+bool Samples::any_censored() const {
+    for (std::size_t p = 0; p < censored.size(); ++p) {
+        if (censored_count(p) > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void Samples::set_censoring(std::size_t property, std::size_t sample, Censoring censoring) {
+    if (censored.empty()) {
+        if (censoring == Censoring::none) {
+            return;
+        }
+        censored.assign(values.size(), std::vector<Censoring>(size(), Censoring::none));
+    }
+    censored[property][sample] = censoring;
+}
 
 std::vector<std::uint32_t> canonical_order(const Samples& samples) {
     std::vector<std::uint32_t> order(samples.size());
@@ -104,9 +150,15 @@ Samples selected(const Samples& samples, const std::vector<std::uint32_t>& order
         }
         return result;
     };
-    Samples result{pick(samples.positions), pick(samples.borehole), pick(samples.depth), pick(samples.length), {}};
+    Samples result{pick(samples.positions), pick(samples.borehole), pick(samples.depth), pick(samples.length), {}, {}};
     for (const auto& column : samples.values) {
         result.values.push_back(pick(column));
+    }
+    for (const auto& column : samples.censored) {
+        result.censored.push_back(pick(column));
+    }
+    if (!result.any_censored()) {
+        result.censored.clear();
     }
     return result;
 }
@@ -127,6 +179,7 @@ MergeReport merge_coincident(Samples& samples, const std::vector<Property>& prop
         if (group.size() > 1) {
             for (std::size_t p = 0; p < samples.values.size(); ++p) {
                 samples.values[p][group.front()] = merged_value(properties[p], samples.values[p], group);
+                samples.set_censoring(p, group.front(), merged_censoring(samples, p, group));
             }
         }
         survivors.push_back(group.front());

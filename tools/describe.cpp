@@ -58,6 +58,9 @@ Json property_json(const Model& model, std::size_t p) {
         }
     }
     json["samples"] = range.count;
+    if (const std::size_t censored = model.samples.censored_count(p); censored > 0) {
+        json["censored"] = censored;
+    }
     return json;
 }
 
@@ -156,8 +159,10 @@ Json describe_table(const Table& table) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         Range range;
         std::size_t empty = 0;
+        std::size_t censored = 0;
         for (const auto& cell : table.cells[c]) {
             range.add(parse_number(cell).value_or(NAN));
+            censored += parse_bound(cell) ? 1 : 0;
             empty += cell.empty() ? 1 : 0;
         }
         Json column{{"name", table.columns[c]}};
@@ -166,7 +171,10 @@ Json describe_table(const Table& table) {
             column["max"] = range.hi;
         }
         column["numbers"] = range.count;
-        column["words"] = table.rows() - range.count - empty;
+        if (censored > 0) {
+            column["censored"] = censored;
+        }
+        column["words"] = table.rows() - range.count - censored - empty;
         column["empty"] = empty;
         json["columns"].push_back(column);
     }

@@ -23,7 +23,17 @@ std::uint64_t peak_memory_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // kilobytes on Linux
 }
 
-Json input_json(const BuildRecord& build) {
+Json censored_json(const Model& model) {
+    Json censored = Json::object();
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (const std::size_t count = model.samples.censored_count(p); count > 0) {
+            censored[model.properties[p].name] = count;
+        }
+    }
+    return censored;
+}
+
+Json input_json(const BuildRecord& build, const Model& model) {
     Json rejected = Json::array();
     for (const auto& record : build.diagnostics.rejected) {
         rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
@@ -31,6 +41,7 @@ Json input_json(const BuildRecord& build) {
     return {{"boreholes", build.counts.boreholes},
             {"samples", build.counts.samples},
             {"faults", build.counts.faults},
+            {"censored", censored_json(model)},
             {"rejected", rejected},
             {"notes", build.diagnostics.notes}};
 }
@@ -161,7 +172,7 @@ std::string report_text(const RunRecord& record) {
     Json report;
     report["terratet"] = version;
     if (record.build != nullptr) {
-        report["input"] = input_json(*record.build);
+        report["input"] = input_json(*record.build, *record.model);
     }
     report["frame"] = {{"crs", frame.crs_name.empty() ? "local" : frame.crs_name},
                        {"unit", frame.unit},

@@ -76,6 +76,22 @@ TEST_CASE("Equal values composite to themselves bit for bit; points and loose sa
     CHECK(samples.borehole == std::vector<std::int32_t>{0, 0, 0, -1});
 }
 
+TEST_CASE("A composite with a censored part is censored, and nothing else is") {
+    // 0–5: "<1" and a measurement; 5–10: a measurement; 10–15: "<" and ">"; 15–20: "<", but too little of it.
+    Site site =
+        site_of({{0, 2, 1, 0}, {2, 10, 3, 0}, {10, 12, 1, 0}, {12, 15, 9, 0}, {15, 16, 1, 0}, {16, 20, missing, 0}});
+    for (const std::size_t i : {0, 2, 4}) {
+        site.samples.set_censoring(0, i, Censoring::below);
+    }
+    site.samples.set_censoring(0, 3, Censoring::above);
+    composite(site, 5);
+    REQUIRE(site.samples.size() == 4);
+    CHECK(site.samples.values[0][0] == Approx((2 * 1 + 3 * 3) / 5.0));  // the bound counts as it is
+    CHECK(std::isnan(site.samples.values[0][3]));
+    CHECK(site.samples.censored[0] == std::vector{Censoring::below, Censoring::none, Censoring::both, Censoring::none});
+    CHECK(site.samples.censored_count(1) == 0);
+}
+
 TEST_CASE("Composites keep the metal: lengths times values add up where all is covered") {
     Random random(91);
     std::vector<std::array<double, 4>> intervals;

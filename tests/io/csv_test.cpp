@@ -73,6 +73,21 @@ TEST_CASE("CSV gives each vertex with its values back bit for bit, missing ones 
     CHECK(missing_values > 5);
 }
 
+TEST_CASE("CSV says which samples' values are bounds") {
+    GridModel grid;
+    Vertex& sample = *std::ranges::find(grid.model.vertices, Role::sample, &Vertex::role);
+    grid.model.samples.set_censoring(1, static_cast<std::size_t>(sample.owner), Censoring::below);
+    const TemporaryFolder folder;
+    write_csv({grid.model, grid.mesh, grid.cells}, folder / "a.csv", {});
+    const auto records = parse(folder / "a.csv");
+    REQUIRE(records[0].size() == 12);
+    CHECK(records[0][10] == "extrapolation");
+    CHECK(records[0][11] == "temperature, mean_censored");
+    for (std::size_t v = 0; v < grid.model.vertices.size(); ++v) {
+        REQUIRE(records[v + 1][11] == (&grid.model.vertices[v] == &sample ? "<" : ""));
+    }
+}
+
 TEST_CASE("CSV names owners, and quotes what needs it") {
     GridModel grid;
     grid.model.boreholes[0].id = "line\nbreak";

@@ -68,6 +68,12 @@ void check_same(const Model& a, const Model& b) {
     CHECK(same(a.samples.length, b.samples.length));
     REQUIRE(a.samples.values.size() == b.samples.values.size());
     CHECK(same(a.samples.values, b.samples.values));
+    CHECK(a.samples.any_censored() == b.samples.any_censored());
+    for (std::size_t p = 0; p < a.properties.size(); ++p) {
+        for (std::size_t i = 0; i < a.samples.size(); ++i) {
+            REQUIRE(a.samples.censoring(p, i) == b.samples.censoring(p, i));
+        }
+    }
     CHECK(a.surfaces == b.surfaces);
     CHECK(same(a.domain.extent, b.domain.extent));
     CHECK(same(a.domain.hull, b.domain.hull));
@@ -141,7 +147,7 @@ Model plain_model() {
         Model model = testing::random_model(seed);
         if (model.boreholes.size() > 2 && model.samples.size() > 10 && model.faults.size() > 1 &&
             model.vertices.size() > 20 && model.vertices.front().role == Role::sample && !model.surfaces.empty() &&
-            model.surfaces[0].triangles.size() > 2 && model.samples.borehole[0] >= 0) {
+            model.surfaces[0].triangles.size() > 2 && model.samples.borehole[0] >= 0 && !model.domain.extent.empty()) {
             model.properties = {{"Cu", "%", Scale::linear, Kind::continuous, {}},
                                 {"rock", "", Scale::linear, Kind::categorical, {"gneiss", "granite"}}};
             model.criteria.variation.clear();
@@ -152,6 +158,8 @@ Model plain_model() {
                 const std::size_t rows = values == &model.samples.values ? model.samples.size() : model.vertices.size();
                 *values = {std::vector<double>(rows, 0.25), std::vector<double>(rows, 1)};
             }
+            model.samples.censored.clear();
+            model.samples.set_censoring(0, 2, Censoring::below);
             return model;
         }
     }
@@ -234,6 +242,10 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
         [](Model& m) { m.samples.values[0][3] = 0.25000000000000006; },
         [](Model& m) { m.samples.values[0][3] = missing; },
         [](Model& m) { m.samples.depth[1] += 1; },
+        [](Model& m) {
+            m.samples.set_censoring(0, 3, m.samples.censoring(0, 3) | Censoring::below);
+            m.samples.set_censoring(0, 4, Censoring::both);
+        },
         [](Model& m) { std::swap(m.surfaces[0].triangles[0], m.surfaces[0].triangles[1]); },
         [](Model& m) { m.surfaces[0].name += "x"; },
         [](Model& m) { m.domain.extent.lo.x -= 1; },
@@ -414,6 +426,8 @@ TEST_CASE("Damage by other programs is found and named by layer and row") {
     CHECK_THAT(message("UPDATE samples SET hole=99 WHERE fid=1"), Contains("layer samples, row 1: its borehole"));
     CHECK_THAT(message("UPDATE samples SET geom=NULL WHERE fid=2"), Contains("layer samples, row 2: its geometry"));
     CHECK_THAT(message("UPDATE samples SET Cu=0.5 WHERE fid=2"), Contains("digest differs"));
+    CHECK_THAT(message("UPDATE samples SET Cu_censored='?' WHERE fid=5"), Contains("layer samples, row 5: \"?\""));
+    CHECK_THAT(message("UPDATE samples SET Cu_censored='>' WHERE fid=5"), Contains("digest differs"));
     CHECK_THAT(message("UPDATE vertices SET side=5 WHERE fid=7"), Contains("layer vertices, row 7: "));
     CHECK_THAT(message("UPDATE vertices SET role='king' WHERE fid=7"), Contains("layer vertices, row 7: \"king\""));
     CHECK_THAT(message("UPDATE vertices SET owner=4711 WHERE fid=1"), Contains("layer vertices, row 1: its sample"));

@@ -152,6 +152,10 @@ struct RandomModel {
                 s.values[p].push_back(value(model.properties[p]));
             }
         }
+        for (std::uint64_t n = random.below(3) * s.size() / 4; n > 0 && !s.values.empty(); --n) {
+            s.set_censoring(random.below(s.values.size()), random.below(s.size()),
+                            static_cast<Censoring>(random.below(4)));
+        }
     }
 
     void add_faults() {

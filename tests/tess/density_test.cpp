@@ -141,7 +141,7 @@ TEST_CASE("The canonical order keeps what fits along a hole; the paper's rule do
     CHECK(by_paper <= 42);
 }
 
-TEST_CASE("Coincident samples merge into their mean, on the logarithmic scale where that is the property's") {
+TEST_CASE("Coincident samples merge into their mean, in the property's scale, censored if one of them is") {
     Samples samples;
     samples.positions = {{1, 2, 3}, {0, 0, 0}, {1, 2, 3}, {1, 2, 3}};
     samples.borehole = {0, 0, 1, 1};
@@ -149,10 +149,14 @@ TEST_CASE("Coincident samples merge into their mean, on the logarithmic scale wh
     samples.length = {0, 0, 0, 0};
     samples.values = {{1e-12, 5, 1e-8, missing}, {2, 0, 1, 1}, {7, 0, 7, 7}};
     const std::vector properties{parse_property("K:log10"), parse_property("L:categorical"), parse_property("T")};
+    samples.set_censoring(0, 2, Censoring::below);
+    samples.set_censoring(2, 1, Censoring::above);
     CHECK(merge_coincident(samples, properties).merged == 2);
     REQUIRE(samples.size() == 2);
     CHECK(samples.values[0][0] == Approx(1e-10));
     CHECK(samples.values[1][0] == 1);
     CHECK(samples.values[2][0] == 7);
     CHECK(samples.positions[1] == Vec3{0, 0, 0});
+    CHECK(samples.censored[0] == std::vector{Censoring::below, Censoring::none});  // the mean of a bound and a value
+    CHECK(samples.censored[2] == std::vector{Censoring::none, Censoring::above});
 }

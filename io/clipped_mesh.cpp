@@ -359,6 +359,22 @@ std::vector<Vertex> ClippedMesh::vertices(const Model& model) const {
     return result;
 }
 
+std::vector<double> region_volumes(const ModelView& view) {
+    const ClippedMesh mesh = clip_to_extent(view);
+    std::vector<double> volumes(static_cast<std::size_t>(view.cells.region_count), 0);
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        if (mesh.region[c] >= 0) {
+            const auto& v = mesh.cells[c];
+            volumes[static_cast<std::size_t>(mesh.region[c])] +=
+                six_volumes(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
+        }
+    }
+    for (double& volume : volumes) {
+        volume /= view.model.frame.z_scale;
+    }
+    return volumes;
+}
+
 ClippedMesh clip_to_extent(const ModelView& view) {
     return Clipper(view).run();
 }

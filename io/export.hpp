@@ -31,13 +31,13 @@ struct ModelView {
 };
 
 struct ExportOptions {
-    std::string format;        ///< overrides the extension: VTU, GLTF, VDB, CSV
+    std::string format;  ///< overrides the extension: VTU, GLTF, VDB, CSV
     bool overwrite = false;
-    bool clip = false;         ///< VTU: only cells in the extent, cut at its planes
-    bool compress = false;     ///< VTU: zlib blocks
-    Vec3 voxel_size{0, 0, 0};      ///< 0: the extent's longest side / 128, rounded to 1-2-5
-    bool local_origin = false;     ///< VDB: grid in frame-local coordinates, for float-based tools
-    std::string color_property;    ///< glTF: which property colours the scene; empty: the first
+    bool clip = false;           ///< VTU: only cells in the extent, cut at its planes
+    bool compress = false;       ///< VTU: zlib blocks
+    Vec3 voxel_size{0, 0, 0};    ///< 0: the extent's longest side / 128, rounded to 1-2-5
+    bool local_origin = false;   ///< VDB: grid in frame-local coordinates, for float-based tools
+    std::string color_property;  ///< glTF: which property colours the scene; empty: the first
     std::string color_map = "viridis";
     Progress progress;
 };
@@ -57,6 +57,10 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
 OutputRecord write_gltf(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
+
+/// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. What lies in the gaps
+/// of faults is no region's. O(cells).
+std::vector<double> region_volumes(const ModelView& view);
 
 /// The voxel size in force for a view: the given one, or the default.
 Vec3 resolved_voxel_size(const ModelView& view, const ExportOptions& options);

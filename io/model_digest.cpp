@@ -104,6 +104,10 @@ class Hash {
         const auto& [name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius] = f;
         add_all(name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius);
     }
+    void add(const RegionName& r) {
+        const auto& [point, name] = r;
+        add_all(point, name);
+    }
     void add(const VariationLimits& v) {
         const auto& [df_min, df_max] = v;
         add_all(df_min, df_max);
@@ -172,8 +176,8 @@ std::string model_digest(const Model& model) {
     Hash hash;
     hash.add(std::string("terratet model 1"));
     hash.add_all(model.frame, model.properties, model.boreholes, model.samples, model.surfaces, model.domain,
-                 model.criteria, model.density, model.fault_options, model.faults, model.vertices, model.vertex_values,
-                 model.estimator);
+                 model.criteria, model.density, model.fault_options, model.region_names, model.faults, model.vertices,
+                 model.vertex_values, model.estimator);
     return hash.hex();
 }
 

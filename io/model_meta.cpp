@@ -165,6 +165,22 @@ FaultOptions fault_options_of(const json& j) {
             j.at("max_seeds").get<std::uint64_t>()};
 }
 
+json region_names_json(const std::vector<RegionName>& names) {
+    json result = json::array();
+    for (const RegionName& named : names) {
+        result.push_back({{"at", vector(named.point)}, {"name", named.name}});
+    }
+    return result;
+}
+
+std::vector<RegionName> region_names_of(const json& j) {
+    std::vector<RegionName> names;
+    for (const json& named : j) {
+        names.push_back({vector(named.at("at")), named.at("name").get<std::string>()});
+    }
+    return names;
+}
+
 json counts_json(const RowCounts& c) {
     return {{schema::samples, c.samples},
             {schema::boreholes, c.boreholes},
@@ -257,6 +273,7 @@ Meta to_meta(const Model& model, const std::vector<std::string>& property_column
             {"criteria", criteria_json(model.criteria).dump()},
             {"density", model.density == DensityMode::paper ? "paper" : "canonical"},
             {"fault_options", fault_options_json(model.fault_options).dump()},
+            {"regions", region_names_json(model.region_names).dump()},
             {"domain", json{{"extent", box(model.domain.extent)}, {"hull", box(model.domain.hull)}}.dump()},
             {"estimator", model.estimator},
             {"counts", counts_json(row_counts(model)).dump()},
@@ -293,6 +310,7 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
         }
         content.model.criteria = criteria_of(parsed("criteria"));
         content.model.fault_options = fault_options_of(parsed("fault_options"));
+        content.model.region_names = region_names_of(parsed("regions"));
         const json domain = parsed("domain");
         content.model.domain = {box(domain.at("extent")), box(domain.at("hull"))};
         content.counts = counts_of(parsed("counts"));

@@ -81,8 +81,9 @@ struct ScenePart {
 };
 
 /// "domain boundary": the extent's faces, seen from within. A viewer that culls back faces looks into an open box from
-/// any direction, at what is inside and at the faces behind it. Then "region N" for each region that meets a fault: its
-/// walls there, seen from outside; with the domain boundary they enclose it. Parts without triangles may be among them.
+/// any direction, at what is inside and at the faces behind it. Then "region N", or its name, for each region that
+/// meets a fault: its walls there, seen from outside; with the domain boundary they enclose it. Parts without triangles
+/// may be among them.
 std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneFrame& frame);
 
 /// A prepared fault's sheet.

@@ -100,8 +100,8 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
     std::map<std::int32_t, PartBuilder> regions;
     const auto add_wall = [&](const Triangle& corners, std::int32_t region) {
         if (region >= 0) {
-            const auto [entry, fresh] =
-                regions.try_emplace(region, "region " + std::to_string(region), clipped, frame, values);
+            const auto [entry, fresh] = regions.try_emplace(
+                region, view.cells.region_name[static_cast<std::size_t>(region)], clipped, frame, values);
             entry->second.add(corners, 0);
         }
     };

@@ -132,7 +132,7 @@ const char* scale_name(const Property& property) {
 }
 
 /// What makes the arrays understandable without the model: CRS, units, names behind numbers.
-std::vector<VtkStrings> field_data(const Model& model, const std::vector<std::string>& names) {
+std::vector<VtkStrings> field_data(const Model& model, const CellTable& cells, const std::vector<std::string>& names) {
     std::vector<VtkStrings> fields{{"CRS", {model.frame.crs_wkt}}, {"LengthUnit", {model.frame.unit}}};
     VtkStrings properties{"Properties", names};
     VtkStrings units{"PropertyUnits", {}};
@@ -155,7 +155,7 @@ std::vector<VtkStrings> field_data(const Model& model, const std::vector<std::st
     for (int reason = 0; reason <= static_cast<int>(Reason::fault_gap); ++reason) {
         reasons.values.push_back(to_string(static_cast<Reason>(reason)));
     }
-    fields.insert(fields.end(), {faults, reasons});
+    fields.insert(fields.end(), {{"Regions", cells.region_name}, faults, reasons});
     return fields;
 }
 
@@ -220,7 +220,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
                        vtk_array("aspect", aspect),
                        vtk_array("dihedral", dihedral),
                        vtk_array("reason", reason)};
-    piece.field_data = field_data(model, names);
+    piece.field_data = field_data(model, view.cells, names);
     write_unstructured_grid(piece, options.compress, file, options.progress);
     return {path, file.commit()};
 }

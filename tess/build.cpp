@@ -8,6 +8,8 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "tess/fault_blocks.hpp"
+
 namespace terratet {
 
 namespace {
@@ -108,6 +110,27 @@ void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& re
     if (!model.faults.empty()) {
         const Box3 hull = model.domain.extent.grown(hull_margin(options.faults, model.criteria.l_min));
         model.domain.hull = {model.frame.snapped(hull.lo), model.frame.snapped(hull.hi)};
+    }
+}
+
+/// Throws UsageError when a name belongs to no region, or a region to two names.
+void name_regions(const BuildOptions& options, Model& model) {
+    model.region_names = options.region_names;
+    if (model.region_names.empty()) {
+        return;
+    }
+    const FaultBlocks blocks(model.domain, model.faults);
+    std::map<std::int32_t, std::string> name_of;
+    for (const RegionName& named : model.region_names) {
+        const std::int32_t block = blocks.at(named.point);
+        if (block < 0) {
+            throw UsageError("--region-name: the point that names '" + named.name +
+                             "' lies in no region: it is outside the extent, or on a fault");
+        }
+        const auto [other, fresh] = name_of.try_emplace(block, named.name);
+        if (!fresh) {
+            throw UsageError("--region-name: '" + other->second + "' and '" + named.name + "' name the same region");
+        }
     }
 }
 
@@ -239,6 +262,7 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     {
         const Stopwatch watch(report.seconds["boundary"]);
         prepare_boundary(options, model, report, progress);
+        name_regions(options, model);
     }
     const FaultProximity proximity(model.faults);
     InitialVertices initial(model);

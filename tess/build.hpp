@@ -21,6 +21,7 @@ struct BuildOptions {
     double pad = -1;    ///< negative: l_max
     Criteria criteria;  ///< l_min 0: diagonal/100; l_max 0: 4 l_min
     DensityMode density = DensityMode::canonical;
+    std::vector<RegionName> region_names;  ///< points frame-local
     FaultOptions faults;
     RefineOptions refine;
     bool refine_enabled = true;  ///< false stops after the initial tessellation
@@ -48,7 +49,7 @@ struct BuildReport {
 using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
 
 /// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
-/// is exceeded. The result does not depend on the order of the site's rows (R6).
+/// is exceeded, UsageError when the point that names a region lies in none, or two of them in the same. The result does not depend on the order of the site's rows (R6).
 Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
             const Progress& progress = {});
 

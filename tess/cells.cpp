@@ -136,6 +136,20 @@ class RegionLabels {
     CellTable& table_;
 };
 
+void name_regions(const Model& model, const TetMesh& mesh, CellTable& table) {
+    for (std::int32_t region = 0; region < table.region_count; ++region) {
+        table.region_name.push_back("region " + std::to_string(region));
+    }
+    MeshWalk walk(mesh);
+    for (const RegionName& named : model.region_names) {
+        const auto position = walk.locate(named.point);
+        const std::int32_t region = position ? table.region[position->cell] : -1;
+        if (region >= 0) {
+            table.region_name[static_cast<std::size_t>(region)] = named.name;
+        }
+    }
+}
+
 double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -191,6 +205,7 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
         table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
     }
     RegionLabels(model, mesh, table).run();
+    name_regions(model, mesh, table);
     return table;
 }
 

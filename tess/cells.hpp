@@ -23,7 +23,8 @@ struct CellTable {
     std::vector<float> radius_edge;
     std::vector<float> aspect;
     std::vector<float> dihedral_min_deg;
-    std::int32_t region_count = 0;  ///< regions are numbered by their smallest cell
+    std::int32_t region_count = 0;         ///< regions are numbered by their smallest cell
+    std::vector<std::string> region_name;  ///< the model's, or "region N"
 };
 
 /// O(n). `mesh` is the model's own.

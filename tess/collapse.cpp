@@ -458,6 +458,7 @@ void fill_cells(const CellTable& before, const CollapseImage& image, CollapsedMo
         region_before.push_back(before.region[parent]);
     }
     table.region_count = before.region_count;
+    table.region_name = before.region_name;
     label_regions(region_before, mesh, table);
 }
 

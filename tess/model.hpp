@@ -31,12 +31,20 @@ struct Site {
     std::vector<Surface> surfaces;
 };
 
+/// The name of the region that holds a point.
+struct RegionName {
+    Vec3 point;
+    std::string name;
+    friend bool operator==(const RegionName&, const RegionName&) = default;
+};
+
 /// A site with its tessellation's recipe and vertices.
 struct Model : Site {
     Domain domain;
     Criteria criteria;
     DensityMode density = DensityMode::canonical;
     FaultOptions fault_options;
+    std::vector<RegionName> region_names;
     std::vector<Fault> faults;     ///< prepared from the surfaces of kind fault
     std::vector<Vertex> vertices;  ///< ascending id
     VertexValues vertex_values;    ///< in step with vertices

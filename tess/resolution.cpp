@@ -5,42 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "tess/cells.hpp"
 #include "tess/error.hpp"
-#include "tess/mesh_walk.hpp"
-#include "tess/model.hpp"
+#include "tess/fault_blocks.hpp"
 
 namespace terratet {
 
 namespace {
 
 using Where = ResolutionOverride::Where;
-
-/// What the faults alone divide the extent into: the corners of the hull box and the seeds.
-Model bare_blocks(const Domain& domain, std::span<const Fault> faults) {
-    Model model;
-    model.domain = domain;
-    model.criteria.l_min = domain.hull.diagonal();
-    model.criteria.l_max = domain.hull.diagonal();
-    model.faults.assign(faults.begin(), faults.end());
-    const auto add = [&](const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
-        model.vertices.push_back({model.vertices.size(), position, role, owner, side});
-    };
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const auto pick = [&](int axis) {
-            return (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? domain.hull.hi[axis] : domain.hull.lo[axis];
-        };
-        add({pick(0), pick(1), pick(2)}, Role::domain, -1, 0);
-    }
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        for (const Seed& seed : faults[f].seeds) {
-            if (domain.hull.contains(seed.position)) {
-                add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
-            }
-        }
-    }
-    return model;
-}
 
 bool touch(const Box3& a, const Box3& b) {
     return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
@@ -49,23 +21,9 @@ bool touch(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-struct ResolutionField::Blocks {
-    TetMesh mesh;
-    std::vector<std::int32_t> block;  ///< by cell
-    mutable MeshWalk walk{mesh};
+struct ResolutionField::Blocks : FaultBlocks {
+    using FaultBlocks::FaultBlocks;
     std::vector<std::int32_t> of_override;  ///< block that each override names; −1: none
-
-    Blocks(const Domain& domain, std::span<const Fault> faults) {
-        const Model model = bare_blocks(domain, faults);
-        mesh = tessellate(model).mesh();
-        block = describe_cells(model, mesh).region;
-    }
-
-    /// −1 in a gap and outside the extent.
-    [[nodiscard]] std::int32_t at(const Vec3& place) const {
-        const auto position = walk.locate(place);
-        return position ? block[position->cell] : -1;
-    }
 };
 
 ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults)

@@ -19,9 +19,8 @@ namespace terratet {
 
 class ResolutionField {
   public:
-    /// Fault blocks are those of the faults in the extent, whatever the samples and the refinement: their cells are
-    /// those between seeds and hull box alone. Throws UsageError when the point that names a block lies outside the
-    /// extent or in a fault's gap. `criteria` and `domain` must outlive the field.
+    /// Fault blocks are FaultBlocks' (tess/fault_blocks.hpp). Throws UsageError when the point that names a block lies
+    /// outside the extent or in a fault's gap. `criteria` and `domain` must outlive the field.
     ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults);
     ~ResolutionField();
     ResolutionField(ResolutionField&&) noexcept;

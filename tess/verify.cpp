@@ -350,6 +350,7 @@ class Verifier {
         BuildOptions options;
         options.extent = model_.domain.extent;
         options.criteria = model_.criteria;
+        options.region_names = model_.region_names;
         options.density = model_.density;
         options.faults = model_.fault_options;
         BuildReport report;

@@ -134,6 +134,13 @@ Json describe_model(const Model& model, const std::vector<JournalEntry>& journal
         json["faults"].push_back(
             {{"name", fault.name}, {"seeds", fault.seeds.size()}, {"spacing", fault.spacing}, {"width", fault.width}});
     }
+    if (!model.region_names.empty()) {
+        json["regions"] = Json::array();
+        for (const auto& named : model.region_names) {
+            const Vec3 p = model.frame.to_world(named.point);
+            json["regions"].push_back({{"name", named.name}, {"at", {p.x, p.y, p.z}}});
+        }
+    }
     json["vertices"] = model.vertices.size();
     json["criteria"] = criteria_json(model);
     json["estimator"] = model.estimator;

@@ -101,6 +101,18 @@ ResolutionOverride parse_resolution(const std::string& text, double metres_per_u
     return part;
 }
 
+/// "x,y,z=NAME", in true coordinates.
+RegionName parse_region_name(const std::string& text) {
+    const auto equals = text.find('=');
+    const auto numbers = equals == std::string::npos ? std::vector<double>()
+                                                     : parse_coordinates("--region-name", text.substr(0, equals));
+    if (numbers.size() != 3 || equals + 1 == text.size()) {
+        throw UsageError(fmt::format(
+            "--region-name: '{}' is not x,y,z=NAME, with a point of the region that is to have the name", text));
+    }
+    return {{numbers[0], numbers[1], numbers[2]}, text.substr(equals + 1)};
+}
+
 struct PropertyLimit {
     std::string property;
     double limit;
@@ -212,6 +224,10 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "HOW",
               "canonical (default) keeps all samples that fit --lmin; paper deletes as the paper does",
               &a.density},
+             {{"region-name"},
+              "X,Y,Z=NAME",
+              "what the region (fault block) is called that holds a point",
+              &a.region_names},
              {{"fault-mode"}, "HOW", "paired (default): two sheets of mirrored points", &a.fault_mode},
              {{"fault-spacing"}, "LENGTH", "between a fault's points; by default --lmin", &a.fault_spacing},
              {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},
@@ -239,6 +255,9 @@ void check_model_arguments(const ModelArguments& a) {
         for (const auto& text : *texts) {
             parse_limit(option, text);
         }
+    }
+    for (const auto& text : a.region_names) {
+        parse_region_name(text);
     }
     density_mode(a.density);
     if (a.fault_mode == "exact") {
@@ -271,6 +290,11 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
         } else {
             part.point = site.frame.to_local(part.point);
         }
+    }
+    for (const auto& text : a.region_names) {
+        RegionName named = parse_region_name(text);
+        named.point = site.frame.to_local(named.point);
+        options.region_names.push_back(std::move(named));
     }
     set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);

@@ -27,6 +27,7 @@ struct ModelArguments {
     double dihedral_deg = Criteria{}.dihedral_deg;
     double v_min = 0;
     double v_max = 0;
+    std::vector<std::string> region_names;
     std::string density = "canonical";
     std::string fault_mode = "paired";
     std::string fault_spacing;

@@ -120,6 +120,16 @@ Json final_json(const RunRecord& record) {
               {"vmin", cells.below_v_min}}}};
 }
 
+Json regions_json(const RunRecord& record) {
+    Json list = Json::array();
+    const CellTable& cells = record.meshed->cells;
+    const auto volumes = region_volumes({*record.model, record.meshed->mesh, cells});
+    for (std::size_t region = 0; region < volumes.size(); ++region) {
+        list.push_back({{"number", region}, {"name", cells.region_name[region]}, {"volume", volumes[region]}});
+    }
+    return list;
+}
+
 Json fidelity_json(const RunRecord& record) {
     Json fidelity = Json::object();
     const auto& all = record.build->report.fidelity;
@@ -194,6 +204,7 @@ std::string report_text(const RunRecord& record) {
         report["initial"] = initial_json(build.report.initial);
         report["refine"] = refine_json(build.report.refine);
         report["final"] = final_json(record);
+        report["regions"] = regions_json(record);
         report["fidelity"] = fidelity_json(record);
         report["estimator"] = {{"name", build.estimator.name},
                                {"options", options},

@@ -79,6 +79,7 @@ void check_same(const Model& a, const Model& b) {
     CHECK(same(a.domain.hull, b.domain.hull));
     CHECK(a.criteria == b.criteria);
     CHECK(a.density == b.density);
+    CHECK(a.region_names == b.region_names);
     CHECK(same(a.fault_options.spacing, b.fault_options.spacing));
     CHECK(same(a.fault_options.width, b.fault_options.width));
     CHECK(same(a.fault_options.snap, b.fault_options.snap));
@@ -251,6 +252,7 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
         [](Model& m) { m.domain.extent.lo.x -= 1; },
         [](Model& m) { m.criteria.l_min *= 2; },
         [](Model& m) { m.criteria.variation.resize(2); },
+        [](Model& m) { m.region_names.push_back({{}, "another"}); },
         [](Model& m) { m.density = m.density == DensityMode::paper ? DensityMode::canonical : DensityMode::paper; },
         [](Model& m) { m.fault_options.snap += 1; },
         [](Model& m) { m.faults[0].seeds.push_back({}); },
@@ -310,7 +312,7 @@ TEST_CASE("A model file is a GeoPackage that other programs open: layers, types,
     OGRLayer* const surfaces =
         check_layer("surfaces", wkbMultiPolygon25D, model.surfaces.size() + 2 * model.faults.size());
     OGRLayer* const vertices = check_layer("vertices", wkbPoint25D, model.vertices.size());
-    check_layer("terratet_meta", wkbNone, 10);
+    check_layer("terratet_meta", wkbNone, 11);
     check_layer("terratet_journal", wkbNone, 1);
     OGRLayer* const changes = check_layer("terratet_changes", wkbNone, 0);
     for (const char* column : {"edit", "table", "row_id", "before", "after"}) {

@@ -221,6 +221,9 @@ struct RandomModel {
         for (std::uint64_t n = random.below(2) * model.properties.size(); n > 0; --n) {
             c.variation.push_back({random(0, 1), random(1, 2)});
         }
+        for (std::uint64_t n = random.below(3); n > 0; --n) {
+            model.region_names.push_back({place(), odd_name(random)});
+        }
         model.density = random.below(2) ? DensityMode::paper : DensityMode::canonical;
         model.fault_options = {random(0, 10), random(0, 1), random(0, 5), random.below(1ULL << 63)};
         if (random.below(4)) {  // else empty: infinities

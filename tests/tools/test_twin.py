@@ -19,6 +19,7 @@ REPORT_KEYS = {
     "refine": {"inserted", "moved", "removed", "bound", "skipped"},
     "final": {"vertices", "tetrahedra", "gap_tetrahedra", "bad_percent", "dihedral_deg", "edge_m", "fault_crossing_edges",
               "delaunay", "regions", "below"},
+    "regions": None,
     "fidelity": {"K"},
     "estimator": {"name", "options", "fallbacks"},
     "outputs": None,

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/fault_blocks.hpp"
+
+#include "tess/cells.hpp"
+#include "tess/model.hpp"
+
+namespace terratet {
+namespace {
+
+/// What the faults alone divide the extent into: the corners of the hull box and the seeds.
+Model bare_blocks(const Domain& domain, std::span<const Fault> faults) {
+    Model model;
+    model.domain = domain;
+    model.criteria.l_min = domain.hull.diagonal();
+    model.criteria.l_max = domain.hull.diagonal();
+    model.faults.assign(faults.begin(), faults.end());
+    const auto add = [&](const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
+        model.vertices.push_back({model.vertices.size(), position, role, owner, side});
+    };
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const auto pick = [&](int axis) {
+            return (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? domain.hull.hi[axis] : domain.hull.lo[axis];
+        };
+        add({pick(0), pick(1), pick(2)}, Role::domain, -1, 0);
+    }
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Seed& seed : faults[f].seeds) {
+            if (domain.hull.contains(seed.position)) {
+                add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
+            }
+        }
+    }
+    return model;
+}
+
+}  // namespace
+
+FaultBlocks::FaultBlocks(const Domain& domain, std::span<const Fault> faults) {
+    const Model model = bare_blocks(domain, faults);
+    mesh_ = tessellate(model).mesh();
+    block_ = describe_cells(model, mesh_).region;
+}
+
+std::int32_t FaultBlocks::at(const Vec3& place) const {
+    const auto position = walk_.locate(place);
+    return position ? block_[position->cell] : -1;
+}
+
+}  // namespace terratet

@@ -37,7 +37,7 @@ CleanUp::CleanUp(Tessellation::Kernel& kernel, const InsertionRule& rule, const 
       frame_(frame),
       revalue_(std::move(revalue)),
       progress_(progress),
-      sharpest_cosine_(std::cos((criteria.dihedral_deg + 0.01) * std::numbers::pi / 180)),
+      sharpest_(sharpness(std::cos((criteria.dihedral_deg + 0.01) * std::numbers::pi / 180))),
       handles_(kernel.vertices.size()) {
     for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
         handles_[vertex->info()] = vertex;
@@ -90,9 +90,8 @@ int CleanUp::severity(const JudgedCell& cell) const {
     if (gap_fault(cell.vertices, kernel_.vertices) >= 0 || rule_.smooth(cell)) {
         return 0;
     }
-    const double angle = std::acos(sharpest_dihedral_cosine(cell.points)) * 180 / std::numbers::pi;
-    const CellPoints& p = cell.points;
-    const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
+    const double angle = std::acos(cosine_of(cell_sharpness(cell.points))) * 180 / std::numbers::pi;
+    const double volume = std::abs(cell.sphere.six_volumes) / 6;
     return std::max(steps_below(angle, criteria_.dihedral_deg), steps_below(volume, criteria_.v_min));
 }
 
@@ -143,7 +142,7 @@ bool CleanUp::clearly_above_limits(Cell cell) const {
     const CellPoints p{delaunay::from_cgal(cell->vertex(0)->point()), delaunay::from_cgal(cell->vertex(1)->point()),
                        delaunay::from_cgal(cell->vertex(2)->point()), delaunay::from_cgal(cell->vertex(3)->point())};
     const double six_volumes = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])));
-    return sharpest_dihedral_cosine(p) < sharpest_cosine_ && six_volumes > 6.01 * criteria_.v_min;
+    return cell_sharpness(p) < sharpest_ && six_volumes > 6.01 * criteria_.v_min;
 }
 
 /// Each once, worst first.
@@ -315,19 +314,20 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
     const double l_min = rule_.resolution().l_min(place);
     State after;
     for (const Facet& facet : zone_.boundary) {
-        std::array<std::pair<std::uint32_t, Vec3>, 4> corners{};
-        corners[0] = {vertex, place};
+        std::array<std::uint32_t, 4> vertices{vertex};
+        CellPoints points{place};
         bool finite = true;
         for (int k = 1; k < 4; ++k) {
             const auto corner = facet.first->vertex((facet.second + k) & 3);
             finite = finite && !triangulation.is_infinite(corner);
-            corners[static_cast<std::size_t>(k)] = {corner->info(), delaunay::from_cgal(corner->point())};
-            if (finite && distance(corners[static_cast<std::size_t>(k)].second, place) < l_min) {
+            vertices[static_cast<std::size_t>(k)] = corner->info();
+            points[static_cast<std::size_t>(k)] = delaunay::from_cgal(corner->point());
+            if (finite && distance(points[static_cast<std::size_t>(k)], place) < l_min) {
                 return false;
             }
         }
         if (finite) {
-            add(judged(corners), after);
+            add(judged(vertices, points), after);
             if (after.open) {
                 return false;
             }

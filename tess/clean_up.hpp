@@ -82,7 +82,7 @@ class CleanUp {
     const Frame& frame_;
     Revalue revalue_;
     const Progress& progress_;
-    double sharpest_cosine_;  ///< of the limit, with room for rounding
+    double sharpest_;  ///< sharpness of the limit, with room for rounding
     std::vector<delaunay::VertexHandle> handles_;
     std::vector<std::uint32_t> removed_;
     CleanUpReport report_;

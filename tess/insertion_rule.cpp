@@ -11,15 +11,23 @@ namespace {
 
 constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return length(cross(b - a, c - a)) / 2;
-}
-
-/// β = R/r with r = 3V/A.
-double aspect(const CellPoints& p, double circumradius, double volume) {
-    const double area = triangle_area(p[1], p[2], p[3]) + triangle_area(p[0], p[2], p[3]) +
-                        triangle_area(p[0], p[1], p[3]) + triangle_area(p[0], p[1], p[2]);
-    return circumradius * area / (3 * volume);
+/// Whether β = R·A/(3V) exceeds `limit`, and if so by what factor; 1 otherwise. With f_i twice the faces' areas,
+/// A² = (Σf_i)²/4 ≤ Σf_i², which acquits most cells without a root.
+double aspect_violation(const CellPoints& p, double squared_radius, double volume, double limit) {
+    const Vec3 a = p[1] - p[0];
+    const Vec3 b = p[2] - p[0];
+    const Vec3 c = p[3] - p[0];
+    const std::array<Vec3, 3> faces{cross(b, c), cross(c, a), cross(a, b)};
+    const std::array<double, 4> squares{squared_length(faces[0]), squared_length(faces[1]), squared_length(faces[2]),
+                                        squared_length(faces[0] + faces[1] + faces[2])};
+    const double allowed = 3 * volume * limit;
+    if (squared_radius * (squares[0] + squares[1] + squares[2] + squares[3]) <= allowed * allowed) {
+        return 1;
+    }
+    const double area =
+        (std::sqrt(squares[0]) + std::sqrt(squares[1]) + std::sqrt(squares[2]) + std::sqrt(squares[3])) / 2;
+    const double factor = std::sqrt(squared_radius) * area / allowed;
+    return factor <= 1 ? 1 : factor;
 }
 
 }  // namespace
@@ -50,7 +58,7 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
     const double l_max = resolution_.l_max(p);
     const Circumsphere& sphere = cell.sphere;
     const double ratio = criteria_.radius_edge;
-    const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
+    const double volume = std::abs(sphere.six_volumes) / 6;
     double worst = 0;
     if (!(longest <= l_max * l_max)) {
         worst = std::sqrt(longest) / l_max;
@@ -62,7 +70,7 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
         worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
     }
     if (criteria_.aspect > 0 && worst <= 1) {
-        worst = std::max(worst, aspect(p, std::sqrt(sphere.squared_radius), volume) / criteria_.aspect);
+        worst = std::max(worst, aspect_violation(p, sphere.squared_radius, volume, criteria_.aspect));
     }
     return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
 }
@@ -115,9 +123,7 @@ double InsertionRule::violation_in_force(const JudgedCell& cell) const {
     }
     double worst = has_variation_ ? variation_violation(cell) : 0;
     if (criteria_.v_max > 0) {
-        const CellPoints& p = cell.points;
-        const double volume = std::abs(dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]))) / 6;
-        worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
+        worst = std::max(worst, std::cbrt(std::abs(cell.sphere.six_volumes) / 6 / criteria_.v_max));
     }
     return worst;
 }

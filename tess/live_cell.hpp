@@ -12,25 +12,36 @@
 
 namespace terratet {
 
-/// From vertices in any order: sorted by index, which is the order of ids.
-inline JudgedCell judged(std::array<std::pair<std::uint32_t, Vec3>, 4> corners) {
-    std::ranges::sort(corners, {}, &std::pair<std::uint32_t, Vec3>::first);
+/// From vertices in any order: sorted by index, which is the order of ids. Without branches, which would be
+/// mispredicted.
+inline JudgedCell judged(const std::array<std::uint32_t, 4>& vertices, const CellPoints& points) {
+    std::array<std::uint64_t, 4> order{};  // the index, and where it stands
+    for (std::size_t k = 0; k < 4; ++k) {
+        order[k] = std::uint64_t{vertices[k]} << 2U | k;
+    }
+    for (const auto& [i, j] : {std::pair{0U, 1U}, {2U, 3U}, {0U, 2U}, {1U, 3U}, {1U, 2U}}) {
+        const std::uint64_t low = std::min(order[i], order[j]);
+        order[j] = std::max(order[i], order[j]);
+        order[i] = low;
+    }
     JudgedCell result{};
     for (std::size_t k = 0; k < 4; ++k) {
-        result.vertices[k] = corners[k].first;
-        result.points[k] = corners[k].second;
+        result.vertices[k] = static_cast<std::uint32_t>(order[k] >> 2U);
+        result.points[k] = points[order[k] & 3U];
     }
     result.sphere = circumsphere(result.points);
     return result;
 }
 
 inline JudgedCell judged(delaunay::Cell cell) {
-    std::array<std::pair<std::uint32_t, Vec3>, 4> corners;
+    std::array<std::uint32_t, 4> vertices{};
+    CellPoints points;
     for (int k = 0; k < 4; ++k) {
         const auto vertex = cell->vertex(k);
-        corners[static_cast<std::size_t>(k)] = {vertex->info(), delaunay::from_cgal(vertex->point())};
+        vertices[static_cast<std::size_t>(k)] = vertex->info();
+        points[static_cast<std::size_t>(k)] = delaunay::from_cgal(vertex->point());
     }
-    return judged(corners);
+    return judged(vertices, points);
 }
 
 /// Points uniform in the unit ball, seeded by ids: the same whatever happened before (R6), also after a reload (R7).

@@ -79,22 +79,30 @@ CellQuality cell_quality(const CellPoints& p) {
     return q;
 }
 
-/// The cosines' squares with their signs order as the cosines do, and cost one root for all.
-double sharpest_dihedral_cosine(const CellPoints& points) {
-    const auto faces = face_vectors(points);
-    std::array<double, 4> inverse{};
+/// Divides only where an angle is the sharpest so far, which is seldom.
+double cell_sharpness(const CellPoints& p, double least, double enough) {
+    const Vec3 a = p[1] - p[0];
+    const Vec3 b = p[2] - p[0];
+    const Vec3 c = p[3] - p[0];
+    std::array<Vec3, 4> faces{{{}, cross(c, b), cross(a, c), cross(b, a)}};
+    faces[0] = -(faces[1] + faces[2] + faces[3]);  // the areas of a closed surface cancel
+    std::array<double, 4> squares{};
     for (std::size_t i = 0; i < 4; ++i) {
-        inverse[i] = 1 / squared_length(faces[i]);
+        squares[i] = squared_length(faces[i]);
     }
-    double largest = -1;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j) {
-            const double product = -dot(faces[i], faces[j]);
-            const double square = product * std::abs(product) * inverse[i] * inverse[j];
-            largest = square <= largest ? largest : square;  // NaN, from a face without area, counts as sharpest
+            const double product = sharpness(-dot(faces[i], faces[j]));
+            const double scale = squares[i] * squares[j];
+            if (!(product < least * scale)) {  // holds for a face without area
+                least = scale > 0 ? product / scale : std::numeric_limits<double>::infinity();
+                if (least > enough) {
+                    return least;
+                }
+            }
         }
     }
-    return largest <= 1 ? std::copysign(std::sqrt(std::abs(largest)), largest) : 1;
+    return least;
 }
 
 Circumsphere circumsphere(const CellPoints& p) {
@@ -102,11 +110,12 @@ Circumsphere circumsphere(const CellPoints& p) {
     const Vec3 b = p[2] - p[0];
     const Vec3 c = p[3] - p[0];
     const Vec3 bc = cross(b, c);
-    const double denominator = 2 * dot(a, bc);
-    const Vec3 offset =
-        (squared_length(a) * bc + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b)) / denominator;
+    const double six_volumes = dot(a, bc);
+    const Vec3 offset = (squared_length(a) * bc + squared_length(b) * cross(c, a) + squared_length(c) * cross(a, b)) /
+                        (2 * six_volumes);
     const double squared_radius = squared_length(offset);
-    return {p[0] + offset, std::isfinite(squared_radius) ? squared_radius : std::numeric_limits<double>::infinity()};
+    return {p[0] + offset, std::isfinite(squared_radius) ? squared_radius : std::numeric_limits<double>::infinity(),
+            six_volumes};
 }
 
 }  // namespace terratet

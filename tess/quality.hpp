@@ -5,6 +5,7 @@
 /// Shape and size of a tetrahedron.
 
 #include <array>
+#include <cmath>
 
 #include "tess/geometry.hpp"
 
@@ -27,12 +28,23 @@ using CellPoints = std::array<Vec3, 4>;
 /// All measures; independent of the orientation, though its last bits depend on the order of the points.
 CellQuality cell_quality(const CellPoints& points);
 
-/// Cosine of the smallest dihedral angle alone: no arc cosine, for comparisons in inner loops. 1 without volume.
-double sharpest_dihedral_cosine(const CellPoints& points);
+/// Sharpness of a dihedral angle: the square of its cosine with the cosine's sign, which orders as the cosine does and
+/// costs neither root nor arc. From −1 to 1, larger for a smaller angle.
+inline double sharpness(double cosine) {
+    return cosine * std::abs(cosine);
+}
+inline double cosine_of(double sharpness) {
+    return sharpness <= 1 ? std::copysign(std::sqrt(std::abs(sharpness)), sharpness) : 1;
+}
+
+/// The larger of `least` and the sharpness of the cell's smallest dihedral angle; infinity without volume. Ends early
+/// once above `enough`.
+double cell_sharpness(const CellPoints& points, double least = -1, double enough = 1);
 
 struct Circumsphere {
     Vec3 center;  ///< not finite for a cell without volume
     double squared_radius = 0;
+    double six_volumes = 0;  ///< a by-product: six times the cell's volume, positive for an outward-ordered cell
 };
 
 /// Computed relative to the first point. Bit-identical only for the same order of points: callers that promise

@@ -23,7 +23,7 @@ using delaunay::Facet;
 
 /// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do better,
 /// and trying seven more points for each would cost more than it saves.
-const double poor_star_cosine = std::cos(20 * std::numbers::pi / 180);
+const double poor_star = sharpness(std::cos(20 * std::numbers::pi / 180));
 constexpr int candidate_count = 7;
 constexpr double candidate_radius = 0.3;  ///< of the circumradius
 
@@ -128,61 +128,76 @@ class Refiner {
     /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
     bool find_zone(const Vec3& point, Cell start, Zone& zone) {
         search_.find(point, start, zone);
-        const double l_min = rule_.resolution().l_min(point);
-        const double limit = l_min * l_min;
-        for (const Facet& facet : zone.boundary) {
-            for (int k = 1; k < 4; ++k) {
-                const auto vertex = facet.first->vertex((facet.second + k) & 3);
-                if (!kernel_.triangulation.is_infinite(vertex) &&
-                    squared_distance(delaunay::from_cgal(vertex->point()), point) < limit) {
-                    return false;
-                }
-            }
-        }
-        return true;
+        const double limit = squared_l_min(point);
+        return std::ranges::all_of(zone.boundary, [&](const Facet& facet) {
+            return is_infinite(facet) || clear_of(facet_corners(facet), point, limit);
+        });
     }
 
     /// Rule 4: where the circumcentre would make a poor star, the first of seven points around it that makes a fair
     /// one, or the best of all eight.
     void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
-        double best = sharpest_of_star(zone_, 1);
-        if (best <= poor_star_cosine) {
+        double best = -1;
+        for (const Facet& facet : zone_.boundary) {
+            best = is_infinite(facet) ? best : star_sharpness(facet_corners(facet), zone_.point, best, 1);
+        }
+        if (best <= poor_star) {
             return;
         }
         std::array<std::uint64_t, 4> ids{};
         std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
         BallPoints ball(ids);
-        for (int i = 0; i < candidate_count && best > poor_star_cosine; ++i) {
+        for (int i = 0; i < candidate_count && best > poor_star; ++i) {
             const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
-            if (!rule_.allows(point) || !find_zone(point, start, candidate_)) {
-                continue;
-            }
-            if (const double sharpest = sharpest_of_star(candidate_, best); sharpest < best) {
-                best = sharpest;
+            if (rule_.allows(point) && find_fairer_zone(point, start, best)) {
                 std::swap(zone_, candidate_);
             }
         }
     }
 
-    /// Cosine of the smallest dihedral angle of the cells an insertion would make; gives up once it exceeds `bound`.
-    double sharpest_of_star(const Zone& zone, double bound) const {
+    /// As find_zone, into candidate_; false as well when the star is no less sharp than `best`, which becomes the
+    /// star's sharpness otherwise. Most candidates fail, so each facet is judged as soon as it is found.
+    bool find_fairer_zone(const Vec3& point, Cell start, double& best) {
+        const double limit = squared_l_min(point);
         double sharpest = -1;
-        for (const Facet& facet : zone.boundary) {
-            CellPoints points{zone.point, {}, {}, {}};
-            bool finite = true;
-            for (int k = 1; k < 4; ++k) {
-                const auto vertex = facet.first->vertex((facet.second + k) & 3);
-                finite = finite && !kernel_.triangulation.is_infinite(vertex);
-                points[static_cast<std::size_t>(k)] = delaunay::from_cgal(vertex->point());
+        const auto fair = [&](const Facet& facet) {
+            if (is_infinite(facet)) {
+                return true;
             }
-            if (finite) {
-                sharpest = std::max(sharpest, sharpest_dihedral_cosine(points));
-                if (sharpest > bound) {
-                    break;
-                }
-            }
+            const FacetCorners corners = facet_corners(facet);
+            sharpest = star_sharpness(corners, point, sharpest, best);
+            return sharpest < best && clear_of(corners, point, limit);
+        };
+        const bool found = search_.find(point, start, candidate_, fair);
+        best = found ? sharpest : best;
+        return found;
+    }
+
+    [[nodiscard]] double squared_l_min(const Vec3& point) const {
+        const double l_min = rule_.resolution().l_min(point);
+        return l_min * l_min;
+    }
+
+    [[nodiscard]] bool is_infinite(const Facet& facet) const { return kernel_.triangulation.is_infinite(facet); }
+
+    using FacetCorners = std::array<Vec3, 3>;
+    static FacetCorners facet_corners(const Facet& facet) {
+        FacetCorners corners;
+        for (int k = 1; k < 4; ++k) {
+            corners[static_cast<std::size_t>(k - 1)] =
+                delaunay::from_cgal(facet.first->vertex((facet.second + k) & 3)->point());
         }
-        return sharpest;
+        return corners;
+    }
+
+    static bool clear_of(const FacetCorners& corners, const Vec3& point, double squared_limit) {
+        return std::ranges::none_of(
+            corners, [&](const Vec3& corner) { return squared_distance(corner, point) < squared_limit; });
+    }
+
+    /// Of the cell that an insertion would make over the facet.
+    static double star_sharpness(const FacetCorners& c, const Vec3& apex, double least, double enough) {
+        return cell_sharpness({apex, c[0], c[1], c[2]}, least, enough);
     }
 
     void insert(const Zone& zone) {

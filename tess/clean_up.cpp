@@ -28,14 +28,14 @@ int steps_below(double value, double limit) {
 
 }  // namespace
 
-CleanUp::CleanUp(Tessellation::Kernel& kernel, const InsertionRule& rule, const ConflictSearch& search,
-                 const Criteria& criteria, const Frame& frame, Revalue revalue, const Progress& progress)
+CleanUp::CleanUp(Tessellation::Kernel& kernel, LiveVertices& vertices, const InsertionRule& rule,
+                 const ConflictSearch& search, const Criteria& criteria, const Frame& frame, const Progress& progress)
     : kernel_(kernel),
+      vertices_(vertices),
       rule_(rule),
       search_(search),
       criteria_(criteria),
       frame_(frame),
-      revalue_(std::move(revalue)),
       progress_(progress),
       sharpest_(sharpness(std::cos((criteria.dihedral_deg + 0.01) * std::numbers::pi / 180))),
       handles_(kernel.vertices.size()) {
@@ -112,7 +112,7 @@ void CleanUp::add(const JudgedCell& cell, State& state) const {
 bool CleanUp::better(State& after, State& before) const {
     std::ranges::sort(after.severities, std::greater());
     std::ranges::sort(before.severities, std::greater());
-    return !after.open && after.blocked <= before.blocked &&
+    return !after.open && (thorough_ || after.blocked <= before.blocked) &&
            std::ranges::lexicographical_compare(after.severities, before.severities);
 }
 
@@ -197,7 +197,7 @@ bool CleanUp::treat(const Patient& patient) {
     }
     const auto mends = [&](std::uint32_t vertex) { return movable(vertex) && mend(vertex, patient); };
     return std::ranges::any_of(patient.vertices, mends) ||
-           (thorough_ && std::ranges::any_of(neighbours(patient), mends));
+           (thorough_ && (std::ranges::any_of(neighbours(patient), mends) || refill_around(patient)));
 }
 
 /// All that share an edge with one of the cell's vertices, by index.
@@ -273,8 +273,8 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
             return true;
         }
     }
-    revalue_(vertex, old_place);
-    put(vertex, old_place);
+    vertices_.revalue(vertex, old_place);
+    put(vertex, old_place, hole_.front());
     return false;
 }
 
@@ -290,7 +290,7 @@ void CleanUp::add_places_for_hole(BallPoints& ball, std::vector<Vec3>& places) c
         if (proposal.reason == Reason::none && !proposal.projected && rule_.violation_in_force(cell) > 1) {
             places.push_back(proposal.point);
             for (int i = 0; i < 3; ++i) {
-                places.push_back(proposal.point + 0.3 * proposal.radius * ball.next());
+                places.push_back(proposal.point + candidate_radius * proposal.radius * ball.next());
             }
         }
     }
@@ -310,7 +310,7 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
         return false;
     }
     search_.find(place, start, zone_);
-    revalue_(vertex, place);
+    vertices_.revalue(vertex, place);
     const double l_min = rule_.resolution().l_min(place);
     State after;
     for (const Facet& facet : zone_.boundary) {
@@ -357,12 +357,12 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
     note_change(hole_);
     note_change(zone_.cells);
     changed_.insert(vertex);
-    put(vertex, place);
+    put(vertex, place, hole_.front());
     return true;
 }
 
-void CleanUp::put(std::uint32_t vertex, const Vec3& place) {
-    const auto handle = kernel_.triangulation.insert(delaunay::to_cgal(place), hole_.front());
+void CleanUp::put(std::uint32_t vertex, const Vec3& place, Cell near) {
+    const auto handle = kernel_.triangulation.insert(delaunay::to_cgal(place), near);
     handle->info() = vertex;
     handles_[vertex] = handle;
     kernel_.vertices[vertex].position = place;

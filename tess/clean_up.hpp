@@ -9,31 +9,32 @@
 /// no more cells than before that insertion cannot treat, and the sorted list of severities of what it touches falls.
 /// Severities are whole numbers, so by the multiset ordering of Dershowitz and Manna (1979) the sweeps end. Candidates
 /// depend on ids and places alone: the last sweep, which accepts nothing, is the proof that cleaning up again would do
-/// nothing either (R7). Once it finds nothing and only few cells are left, more is tried for them. Vertices within
-/// l_min of the box stay, since cells near it may be untreated because of them.
+/// nothing either (R7). Vertices within l_min of the box stay, since cells near it may be untreated because of them.
+///
+/// Once a sweep finds nothing and only few cells are left, more is tried for them: more places, their neighbours, and
+/// vertices that give way, alone or in pairs, to what insertion puts in their stead. For so few, cells that insertion
+/// cannot treat may become more.
 
-#include <functional>
 #include <optional>
 #include <set>
 
 #include "tess/conflict_zone.hpp"
 #include "tess/insertion_rule.hpp"
 #include "tess/live_cell.hpp"
+#include "tess/live_vertices.hpp"
 
 namespace terratet {
 
 struct CleanUpReport {
-    std::uint64_t moved = 0;  ///< accepted moves; a vertex may move more than once
+    std::uint64_t inserted = 0;  ///< in removed ones' stead
+    std::uint64_t moved = 0;     ///< accepted moves; a vertex may move more than once
     std::uint64_t removed = 0;
 };
 
 class CleanUp {
   public:
-    /// `revalue` gives a vertex (by index) the values of a new place.
-    using Revalue = std::function<void(std::uint32_t vertex, const Vec3& place)>;
-
-    CleanUp(Tessellation::Kernel& kernel, const InsertionRule& rule, const ConflictSearch& search,
-            const Criteria& criteria, const Frame& frame, Revalue revalue, const Progress& progress);
+    CleanUp(Tessellation::Kernel& kernel, LiveVertices& vertices, const InsertionRule& rule,
+            const ConflictSearch& search, const Criteria& criteria, const Frame& frame, const Progress& progress);
 
     /// Removed vertices are gone from the triangulation but still in the kernel's table: removed() tells which.
     CleanUpReport run();
@@ -72,15 +73,21 @@ class CleanUp {
     bool treat(const Patient& patient);
     bool mend(std::uint32_t vertex, const Patient& patient);
     void add_places_for_hole(BallPoints& ball, std::vector<Vec3>& places) const;
+    bool refill(const std::vector<std::uint32_t>& vertices, BallPoints* ball);
+    bool refill_around(const Patient& patient);
+    bool insert_into(std::set<delaunay::Cell>& fresh, BallPoints* ball, State& before);
+    [[nodiscard]] std::optional<std::pair<JudgedCell, delaunay::Cell>> worst_open(
+        const std::set<delaunay::Cell>& cells) const;
+    [[nodiscard]] bool zone_clear_of(const Vec3& place) const;
     bool try_place(std::uint32_t vertex, const Vec3& place, const State& star_before);
-    void put(std::uint32_t vertex, const Vec3& place);
+    void put(std::uint32_t vertex, const Vec3& place, delaunay::Cell near);
 
     Tessellation::Kernel& kernel_;
+    LiveVertices& vertices_;
     const InsertionRule& rule_;
     const ConflictSearch& search_;
     const Criteria& criteria_;
     const Frame& frame_;
-    Revalue revalue_;
     const Progress& progress_;
     double sharpest_;  ///< sharpness of the limit, with room for rounding
     std::vector<delaunay::VertexHandle> handles_;

@@ -35,6 +35,9 @@ struct Proposal {
     double radius = 0;             ///< of the circumsphere
 };
 
+/// Where rules 4 and 6 try points around a circumcentre, in circumradii: still well inside every such sphere.
+inline constexpr double candidate_radius = 0.3;
+
 class InsertionRule {
   public:
     /// All references must outlive the rule.

@@ -13,6 +13,7 @@
 #include "tess/delaunay.hpp"
 #include "tess/insertion_rule.hpp"
 #include "tess/live_cell.hpp"
+#include "tess/live_vertices.hpp"
 
 namespace terratet {
 
@@ -25,7 +26,6 @@ using delaunay::Facet;
 /// and trying seven more points for each would cost more than it saves.
 const double poor_star = sharpness(std::cos(20 * std::numbers::pi / 180));
 constexpr int candidate_count = 7;
-constexpr double candidate_radius = 0.3;  ///< of the circumradius
 
 class Refiner {
   public:
@@ -33,18 +33,15 @@ class Refiner {
             const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
             const ValueSource& source, const RefineOptions& options)
         : kernel_(tessellation.kernel()),
-          values_(values),
           rule_(criteria, domain, frame, faults, properties, values),
           search_(kernel_.triangulation, domain.hull),
           criteria_(criteria),
           frame_(frame),
-          source_(source),
           options_(options),
-          values_at_once_(criteria.has_variation()),
-          property_count_(properties.size()),
+          vertices_(kernel_, values, source, criteria.has_variation(), options.max_vertices,
+                    rule_.resolution().packing_bound()),
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
-          has_faults_(!faults.empty()),
-          first_new_(kernel_.vertices.size()) {
+          has_faults_(!faults.empty()) {
         report_.bound = rule_.resolution().packing_bound();
     }
 
@@ -56,9 +53,7 @@ class Refiner {
         if (options_.clean_up) {
             clean_up();
         }
-        if (!values_at_once_) {
-            append_values(first_new_);
-        }
+        vertices_.complete();
         return report_;
     }
 
@@ -201,11 +196,6 @@ class Refiner {
     }
 
     void insert(const Zone& zone) {
-        if (kernel_.vertices.size() >= options_.max_vertices) {
-            throw Error("refinement reached --max-vertices " + std::to_string(options_.max_vertices) +
-                        "; the criteria allow up to " + std::to_string(static_cast<std::uint64_t>(report_.bound)) +
-                        " inserted vertices: raise the limit, or --lmin");
-        }
         for (const Cell cell : zone.cells) {
             queue_.forget(cell);
         }
@@ -217,15 +207,8 @@ class Refiner {
         const auto vertex =
             triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
                                          zone.boundary.front().first, zone.boundary.front().second);
-        vertex->info() = static_cast<std::uint32_t>(kernel_.vertices.size());
-        if (kernel_.vertices.size() == kernel_.vertices.capacity()) {  // doubling would cost more than the queue
-            kernel_.vertices.reserve(kernel_.vertices.size() / 8 * 9 + 8);
-        }
-        kernel_.vertices.push_back({kernel_.next_id++, zone.point, Role::inserted, -1, 0});
+        vertex->info() = vertices_.append(zone.point);
         ++report_.inserted;
-        if (values_at_once_) {
-            append_values(kernel_.vertices.size() - 1);
-        }
         star_.clear();
         for (const auto& [cell, k] : outside_) {
             if (const Cell fresh = cell->neighbor(k); !triangulation.is_infinite(fresh)) {
@@ -239,72 +222,12 @@ class Refiner {
     }
 
     void clean_up() {
-        const auto revalue = [this](std::uint32_t vertex, const Vec3& place) {
-            if (vertex < values_.extrapolation.size()) {  // the others get theirs at the end
-                set_values(vertex, place);
-            }
-        };
-        CleanUp cleaning(kernel_, rule_, search_, criteria_, frame_, revalue, options_.progress);
+        CleanUp cleaning(kernel_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
         const CleanUpReport done = cleaning.run();
+        report_.inserted += done.inserted;
         report_.moved = done.moved;
         report_.removed = done.removed;
-        drop(cleaning.removed());
-    }
-
-    /// Takes removed vertices out of the tables; the others keep their ids and their order.
-    void drop(const std::vector<std::uint32_t>& removed) {
-        if (removed.empty()) {
-            return;
-        }
-        std::vector<std::uint32_t> new_index(kernel_.vertices.size(), 0);
-        for (const std::uint32_t vertex : removed) {
-            new_index[vertex] = delaunay::none;
-        }
-        const std::size_t with_values = values_.extrapolation.size();
-        const auto compact = [&](auto& column, std::size_t size) {
-            std::size_t kept = 0;
-            for (std::size_t i = 0; i < size; ++i) {
-                if (new_index[i] != delaunay::none) {
-                    column[kept++] = column[i];
-                }
-            }
-            column.resize(kept);
-        };
-        for (auto& column : values_.values) {
-            compact(column, with_values);
-        }
-        compact(values_.extrapolation, with_values);
-        compact(kernel_.vertices, kernel_.vertices.size());
-        std::uint32_t next = 0;
-        for (std::uint32_t& index : new_index) {
-            index = index == delaunay::none ? delaunay::none : next++;
-        }
-        for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
-            vertex->info() = new_index[vertex->info()];
-        }
-        first_new_ = std::min(first_new_, values_.extrapolation.size());
-    }
-
-    void set_values(std::uint32_t vertex, const Vec3& place) {
-        const ValueQuery query{place, -1, 0};
-        const ValueBatch batch = source_({&query, 1});
-        for (std::size_t p = 0; p < property_count_; ++p) {
-            values_.values[p][vertex] = batch.values[p][0];
-        }
-        values_.extrapolation[vertex] = batch.extrapolation[0];
-    }
-
-    void append_values(std::size_t first) {
-        std::vector<ValueQuery> queries;
-        for (std::size_t i = first; i < kernel_.vertices.size(); ++i) {
-            queries.push_back({kernel_.vertices[i].position, -1, 0});
-        }
-        const ValueBatch batch = source_(queries);
-        for (std::size_t p = 0; p < property_count_; ++p) {
-            values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
-        }
-        values_.extrapolation.insert(values_.extrapolation.end(), batch.extrapolation.begin(),
-                                     batch.extrapolation.end());
+        vertices_.drop(cleaning.removed());
     }
 
     /// Nobody knows how much is left; what is done against what waits is a fair guess that never runs backwards.
@@ -321,18 +244,14 @@ class Refiner {
     };
 
     Tessellation::Kernel& kernel_;
-    VertexValues& values_;
     InsertionRule rule_;
     ConflictSearch search_;
     const Criteria& criteria_;
     const Frame& frame_;
-    const ValueSource& source_;
     const RefineOptions& options_;
-    bool values_at_once_;
-    std::size_t property_count_;
+    LiveVertices vertices_;
     double smallest_squared_radius_;
     bool has_faults_;
-    std::size_t first_new_;
     CellQueue queue_;
     RefineReport report_;
     double told_ = 0;

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/live_vertices.hpp"
+
+#include "tess/error.hpp"
+
+namespace terratet {
+
+LiveVertices::LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source,
+                           bool values_at_once, std::uint64_t max_vertices, double bound)
+    : kernel_(kernel),
+      values_(values),
+      source_(source),
+      values_at_once_(values_at_once),
+      max_vertices_(max_vertices),
+      bound_(bound) {}
+
+std::uint32_t LiveVertices::append(const Vec3& place) {
+    auto& vertices = kernel_.vertices;
+    if (vertices.size() >= max_vertices_) {
+        throw Error("refinement reached --max-vertices " + std::to_string(max_vertices_) +
+                    "; the criteria allow up to " + std::to_string(static_cast<std::uint64_t>(bound_)) +
+                    " inserted vertices: raise the limit, or --lmin");
+    }
+    if (vertices.size() == vertices.capacity()) {  // doubling would cost more than the queue
+        vertices.reserve(vertices.size() / 8 * 9 + 8);
+    }
+    vertices.push_back({kernel_.next_id++, place, Role::inserted, -1, 0});
+    if (values_at_once_) {
+        complete();
+    }
+    return static_cast<std::uint32_t>(vertices.size() - 1);
+}
+
+void LiveVertices::pop() {
+    kernel_.vertices.pop_back();
+    --kernel_.next_id;
+    if (valued() > size()) {
+        for (auto& column : values_.values) {
+            column.pop_back();
+        }
+        values_.extrapolation.pop_back();
+    }
+}
+
+void LiveVertices::revalue(std::uint32_t vertex, const Vec3& place) {
+    if (vertex >= valued()) {
+        return;
+    }
+    const ValueQuery query{place, -1, 0};
+    const ValueBatch batch = source_({&query, 1});
+    for (std::size_t p = 0; p < values_.values.size(); ++p) {
+        values_.values[p][vertex] = batch.values[p][0];
+    }
+    values_.extrapolation[vertex] = batch.extrapolation[0];
+}
+
+void LiveVertices::drop(const std::vector<std::uint32_t>& removed) {
+    if (removed.empty()) {
+        return;
+    }
+    std::vector<std::uint32_t> new_index(size(), 0);
+    for (const std::uint32_t vertex : removed) {
+        new_index[vertex] = delaunay::none;
+    }
+    const auto compact = [&](auto& column) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            if (new_index[i] != delaunay::none) {
+                column[kept++] = column[i];
+            }
+        }
+        column.resize(kept);
+    };
+    for (auto& column : values_.values) {
+        compact(column);
+    }
+    compact(values_.extrapolation);
+    compact(kernel_.vertices);
+    std::uint32_t next = 0;
+    for (std::uint32_t& index : new_index) {
+        index = index == delaunay::none ? delaunay::none : next++;
+    }
+    for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
+        vertex->info() = new_index[vertex->info()];
+    }
+}
+
+void LiveVertices::complete() {
+    if (valued() == size()) {
+        return;
+    }
+    std::vector<ValueQuery> queries;
+    for (std::size_t i = valued(); i < size(); ++i) {
+        queries.push_back({kernel_.vertices[i].position, -1, 0});
+    }
+    const ValueBatch batch = source_(queries);
+    for (std::size_t p = 0; p < values_.values.size(); ++p) {
+        values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
+    }
+    values_.extrapolation.insert(values_.extrapolation.end(), batch.extrapolation.begin(), batch.extrapolation.end());
+}
+
+}  // namespace terratet

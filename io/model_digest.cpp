@@ -138,8 +138,8 @@ class Hash {
         add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides);
     }
     void add(const FaultOptions& o) {
-        const auto& [spacing, width, snap, max_seeds] = o;
-        add_all(spacing, width, snap, max_seeds);
+        const auto& [spacing, width, snap, max_seeds, mode] = o;
+        add_all(spacing, width, snap, max_seeds, mode);
     }
     void add(const VertexValues& v) {
         const auto& [values, extrapolation] = v;

@@ -157,12 +157,14 @@ json fault_options_json(const FaultOptions& o) {
     return {{"spacing", number(o.spacing)},
             {"width", number(o.width)},
             {"snap", number(o.snap)},
-            {"max_seeds", o.max_seeds}};
+            {"max_seeds", o.max_seeds},
+            {"mode", o.mode == FaultMode::exact ? "exact" : "paired"}};
 }
 
 FaultOptions fault_options_of(const json& j) {
     return {number(j.at("spacing")), number(j.at("width")), number(j.at("snap")),
-            j.at("max_seeds").get<std::uint64_t>()};
+            j.at("max_seeds").get<std::uint64_t>(),
+            is_second(j.at("mode"), "paired", "exact") ? FaultMode::exact : FaultMode::paired};
 }
 
 json region_names_json(const std::vector<RegionName>& names) {

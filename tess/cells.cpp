@@ -183,6 +183,27 @@ std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const
     return both_sides ? first.owner : -1;
 }
 
+namespace {
+
+/// Where faults meet, or run close to each other, a cell between seeds of several of them, or of one side of a fold,
+/// may reach across one: that one, or −1.
+std::int32_t gap_at_junction(const std::array<std::uint32_t, 4>& cell, const Model& model, const TetMesh& mesh,
+                             const FaultProximity& faults) {
+    if (!std::ranges::all_of(cell, [&](std::uint32_t v) { return model.vertices[v].role == Role::seed; })) {
+        return -1;
+    }
+    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        for (const auto& [i, j] : cell_edges) {
+            if (faults.crosses(static_cast<std::int32_t>(f), mesh.points[cell[i]], mesh.points[cell[j]])) {
+                return static_cast<std::int32_t>(f);
+            }
+        }
+    }
+    return -1;
+}
+
+}  // namespace
+
 CellTable describe_cells(const Model& model, const TetMesh& mesh) {
     const std::size_t n = mesh.cells.size();
     CellTable table;
@@ -194,6 +215,7 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
     table.aspect.resize(n);
     table.dihedral_min_deg.resize(n);
     Explainer explain(model, mesh);
+    const FaultProximity faults(model.faults);
     for (std::size_t c = 0; c < n; ++c) {
         const CellPoints points = corners(mesh, mesh.cells[c]);
         const CellQuality quality = cell_quality(points);
@@ -202,6 +224,9 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
         table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
         table.in_extent[c] = model.domain.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3]));
         table.fault[c] = gap_fault(mesh.cells[c], model.vertices);
+        if (table.fault[c] < 0) {
+            table.fault[c] = gap_at_junction(mesh.cells[c], model, mesh, faults);
+        }
         table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
     }
     RegionLabels(model, mesh, table).run();
@@ -271,7 +296,7 @@ std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh
         const auto fault = static_cast<std::int32_t>(f);
         const Box3 box = bounding_box(model.faults[f].sheet.vertices);
         const auto is_own_seed = [&](std::uint32_t v) {
-            return model.vertices[v].role == Role::seed && model.vertices[v].owner == fault;
+            return model.vertices[v].role == Role::seed && proximity.meet(fault, model.vertices[v].owner);
         };
         std::vector<std::array<std::uint32_t, 2>> suspects;
         for (const auto& cell : mesh.cells) {

@@ -30,7 +30,8 @@ struct CellTable {
 /// O(n). `mesh` is the model's own.
 CellTable describe_cells(const Model& model, const TetMesh& mesh);
 
-/// A gap cell joins both sides of one fault and nothing else. Returns the fault, or −1.
+/// Does the cell join both sides of one fault and nothing else? Returns the fault, or −1. At junctions other cells
+/// between seeds reach across a fault, too: the table counts them as gap cells of that one.
 std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices);
 
 /// Numbers of the report over the non-gap cells in the extent (DESIGN §5).
@@ -56,7 +57,8 @@ struct CellStatistics {
 
 CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells);
 
-/// Edges within the extent that cross a fault without both ends being its seeds: F1 says none. Each edge once, as
+/// Edges within the extent that cross a fault without both ends being seeds of it or of faults that meet it: F1 says
+/// none. Each edge once, as
 /// vertex indices, with the fault; an edge counts when its crossing point lies in the extent.
 struct CrossingEdge {
     std::uint32_t a = 0;

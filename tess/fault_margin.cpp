@@ -173,12 +173,13 @@ FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap
     return cut_to_box(std::move(mesh), limit).inside;
 }
 
-FaultMesh skirt(const FaultMesh& part, double width, const Box3& extent, const Box3& limit) {
+FaultMesh skirt(const FaultMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
+                const Box3& limit) {
     const std::vector<Vec3> normals = vertex_normals(part);
     FaultMesh strips;
     std::map<std::uint32_t, std::vector<Vec3>> arriving;  // outward directions of rim edges, by the point they end in
     std::map<std::uint32_t, std::vector<Vec3>> leaving;
-    for (const RimEdge& e : rim_edges(part)) {
+    for (const RimEdge& e : rim) {
         const Vec3& a = part.points[e.from];
         const Vec3& b = part.points[e.to];
         const Vec3 outward = unit(cross(b - a, unit(normals[e.from] + normals[e.to])));

@@ -15,10 +15,11 @@ namespace terratet {
 /// that would fold are left as they are. Returns the mesh with the strips, cut to the extent grown by `reach`.
 FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap, double reach, double spacing);
 
-/// Strips of the given width along the rims, in the surface's tangent planes, with fans at convex corners: with the
-/// surface they hold everything tangentially nearer than `width` to it. Rims on the faces of `limit`, where the surface
-/// was cut, get none, nor do rims farther than `width` from the extent. Triangles overlap; each carries its normal in
-/// its sense. Cut to `limit`.
-FaultMesh skirt(const FaultMesh& part, double width, const Box3& extent, const Box3& limit);
+/// Strips of the given width along the given rim edges of the part, in the surface's tangent planes, with fans at
+/// convex corners: with the surface they hold everything tangentially nearer than `width` to it. Rims on the faces of
+/// `limit`, where the surface was cut, get none, nor do rims farther than `width` from the extent. Triangles overlap;
+/// each carries its normal in its sense. Cut to `limit`.
+FaultMesh skirt(const FaultMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
+                const Box3& limit);
 
 }  // namespace terratet

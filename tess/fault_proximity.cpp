@@ -3,6 +3,8 @@
 #include "tess/fault_proximity.hpp"
 
 #include <cassert>
+#include <map>
+#include <set>
 
 #include "tess/fault_rims.hpp"
 #include "tess/triangle_grid.hpp"
@@ -17,6 +19,7 @@ struct FaultProximity::Impl {
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
     std::vector<double> squared_protection;  ///< of each fault
+    std::set<std::pair<std::int32_t, std::int32_t>> meeting;
 };
 
 FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_unique<Impl>()) {
@@ -37,6 +40,19 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
     }
     impl_->rims = FaultRims(faults);
     impl_->zone = TriangleGrid(std::move(triangles), reach);
+    std::map<Vec3, std::vector<std::int32_t>> users;
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Vec3& p : faults[f].sheet.vertices) {
+            users[p].push_back(static_cast<std::int32_t>(f));
+        }
+    }
+    for (const auto& [p, list] : users) {
+        for (const std::int32_t a : list) {
+            for (const std::int32_t b : list) {
+                impl_->meeting.emplace(a, b);
+            }
+        }
+    }
 }
 
 FaultProximity::~FaultProximity() = default;
@@ -77,6 +93,15 @@ bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t exce
 
 double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
     return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
+}
+
+bool FaultProximity::meet(std::int32_t fault, std::int32_t other) const {
+    return fault == other || impl_->meeting.contains({fault, other});
+}
+
+std::int8_t FaultProximity::side_of(std::int32_t fault, const Vec3& p) const {
+    assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
+    return impl_->sheets[static_cast<std::size_t>(fault)].side_of(p);
 }
 
 double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {

@@ -36,9 +36,17 @@ class FaultProximity {
     [[nodiscard]] bool crosses_any(const Vec3& a, const Vec3& b, std::int32_t except = -1) const;
 
     /// How freely a sees b: 0 where the closed segment meets a sheet, else the distance at which it passes the nearest
-    /// free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets a sheet:
-    /// what estimators weigh samples with whose field is to be continuous round a fault's end.
+    /// free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets a
+    /// sheet: what estimators weigh samples with whose field is to be continuous round a fault's end.
     [[nodiscard]] double openness(const Vec3& a, const Vec3& b) const;
+
+    /// Do the sheets of the two share a point? A fault meets itself.
+    [[nodiscard]] bool meet(std::int32_t fault, std::int32_t other) const;
+
+    /// On which side of fault f's sheet is p: +1 where the normals point, −1, or 0 on the sheet? Told by the exact
+    /// orientation to a triangle that nothing of the sheet hides from p (F2). Beyond a rim the sheet is thought to go
+    /// on. \pre The fault has triangles. O(log n).
+    [[nodiscard]] std::int8_t side_of(std::int32_t fault, const Vec3& p) const;
 
     /// Distance from p to fault f's sheet; infinity for a fault without triangles.
     [[nodiscard]] double distance_to_sheet(std::int32_t fault, const Vec3& p) const;

@@ -2,251 +2,546 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_remesh.hpp"
 
+#include <CGAL/AABB_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <numbers>
+#include <numeric>
 
+#include "tess/complex_editor.hpp"
 #include "tess/point_grid.hpp"
 
 namespace terratet {
 namespace {
 
-namespace pmp = CGAL::Polygon_mesh_processing;
+constexpr double longest = 4.0 / 3;   ///< of the wanted edge length: split above
+constexpr double shortest = 0.7;      ///< collapse below
+constexpr double thin = 0.05;         ///< height of a triangle in edge lengths: taken out below
+constexpr double corner_turn = 1.05;  ///< radians: rims and junctions that turn more keep a node there
+constexpr double least_wedge = 10 * std::numbers::pi / 180;
+constexpr int rounds = 6;
+constexpr int repairs = 8;
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+Kernel::Point_3 point(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
 
 Vec3 vec(const Kernel::Point_3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-/// False when the triangles are no manifold.
-bool to_cgal(const FaultMesh& mesh, SurfaceMesh& result) {
-    result.reserve(mesh.points.size(), mesh.triangles.size() * 2, mesh.triangles.size());
-    for (const Vec3& p : mesh.points) {
-        result.add_vertex({p.x, p.y, p.z});
-    }
-    for (const Triangle& t : mesh.triangles) {
-        const auto v = [&](std::size_t k) { return SurfaceMesh::Vertex_index(t[k]); };
-        if (result.add_face(v(0), v(1), v(2)) == SurfaceMesh::null_face()) {
-            return false;
+/// Nearest points on a set of triangles or segments. Not movable: the tree points into them.
+template <class Piece, template <class, class, class> class PrimitiveOf>
+class Target {
+  public:
+    void add(const Piece& piece) {
+        if (!piece.is_degenerate()) {
+            pieces_.push_back(piece);
         }
     }
-    return true;
+    void build() {
+        tree_.insert(pieces_.cbegin(), pieces_.cend());
+        if (!pieces_.empty()) {
+            tree_.build();
+            tree_.accelerate_distance_queries();
+        }
+    }
+    [[nodiscard]] Vec3 nearest(const Vec3& p) const { return pieces_.empty() ? p : vec(tree_.closest_point(point(p))); }
+
+  private:
+    using Iterator = typename std::vector<Piece>::const_iterator;
+    using Primitive = PrimitiveOf<Kernel, Iterator, CGAL::Tag_false>;
+    std::vector<Piece> pieces_;
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
+};
+
+/// Surely farther from the triangle than the limit?
+bool beyond_box(const Vec3& p, const TriangleCorners& c, double limit) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [least, most] = std::minmax({c[0][axis], c[1][axis], c[2][axis]});
+        if (p[axis] < least - limit || p[axis] > most + limit) {
+            return true;
+        }
+    }
+    return false;
 }
 
-FaultMesh from_cgal(SurfaceMesh& mesh) {
-    mesh.collect_garbage();
-    FaultMesh result;
-    for (const auto v : mesh.vertices()) {
-        result.points.push_back(vec(mesh.point(v)));
-    }
-    for (const auto face : mesh.faces()) {
-        Triangle t{};
-        std::size_t k = 0;
-        for (const auto v : mesh.vertices_around_face(mesh.halfedge(face))) {
-            t[k++] = static_cast<std::uint32_t>(v.idx());
-        }
-        result.triangles.push_back(t);
-    }
-    return result;
-}
+using PatchTarget = Target<Kernel::Triangle_3, CGAL::AABB_triangle_primitive>;
+using LineTarget = Target<Kernel::Segment_3, CGAL::AABB_segment_primitive>;
 
-using CornerMap = SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>;
+class Remesher {
+  public:
+    Remesher(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report)
+        : numbering_(patches(complex, EdgeTable(complex.triangles))),
+          editor_(complex, numbering_, sizes),
+          sizes_(sizes),
+          snap_(snap),
+          report_(report) {
+        set_targets(complex);
+        keep_corners(complex);
+    }
 
-/// Keeps corners of the rim, where it turns by more than 30°: the sharpest first, and none nearer than half the spacing
-/// to another, or a ragged rim would stay as fine as it came.
-void constrain_corners(const SurfaceMesh& mesh, double spacing, CornerMap& constrained) {
-    std::vector<std::pair<double, SurfaceMesh::Vertex_index>> corners_found;
-    for (const auto h : mesh.halfedges()) {
-        if (!mesh.is_border(h)) {
-            continue;
+    FaultComplex run() {
+        for (int round = 0; round < rounds; ++round) {
+            split_long();
+            collapse_short();
+            if (round > 0) {
+                flatten_thin();
+                snap_close(snap_);
+                collapse_short();
+            }
+            flip_all(4);
+            for (int step = 0; step < 3; ++step) {
+                smooth(0.7);
+            }
         }
-        const Vec3 before = vec(mesh.point(mesh.source(h)));
-        const Vec3 here = vec(mesh.point(mesh.target(h)));
-        const Vec3 after = vec(mesh.point(mesh.target(mesh.next(h))));
-        const double straightness = dot(unit(here - before), unit(after - here));
-        if (straightness < std::cos(std::numbers::pi / 6)) {
-            corners_found.emplace_back(straightness, mesh.target(h));
+        for (int step = 0; step < 6; ++step) {
+            flip_all(1);
+            smooth(0.5);
         }
+        flip_all(6);
+        return settle();
     }
-    std::sort(corners_found.begin(), corners_found.end());
-    PointGrid kept(0.5 * spacing);
-    for (const auto& [straightness, v] : corners_found) {
-        if (const Vec3 p = vec(mesh.point(v)); !kept.any_within(p, 0.5 * spacing)) {
-            kept.insert(p);
-            constrained[v] = true;
-        }
-    }
-}
 
-double farthest(const FaultMesh& from, const FaultMesh& to, const Box3& where, double limit) {
-    std::vector<Kernel::Triangle_3> triangles;
-    for (const Triangle& t : to.triangles) {
-        const auto point = [&](std::size_t k) {
-            const Vec3& p = to.points[t[k]];
-            return Kernel::Point_3(p.x, p.y, p.z);
-        };
-        if (const Kernel::Triangle_3 triangle(point(0), point(1), point(2)); !triangle.is_degenerate()) {
-            triangles.push_back(triangle);
+  private:
+    void set_targets(const FaultComplex& complex) {
+        for (std::uint32_t k = 0; k < numbering_.count; ++k) {
+            surfaces_.push_back(std::make_unique<PatchTarget>());
         }
-    }
-    if (triangles.empty()) {
-        return limit;
-    }
-    Tree tree(triangles.begin(), triangles.end());
-    tree.accelerate_distance_queries();
-    double most = 0;
-    const auto measure = [&](const Vec3& p) {
-        if (where.contains(p)) {
-            most = std::max(most, std::sqrt(tree.squared_distance({p.x, p.y, p.z})));
+        for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+            const TriangleCorners c = corners(complex, t);
+            surfaces_[numbering_.of_triangle[t]]->add({point(c[0]), point(c[1]), point(c[2])});
         }
-    };
-    for (const Vec3& p : from.points) {
-        measure(p);
+        for (const auto& surface : surfaces_) {
+            surface->build();
+        }
+        const EdgeTable edges(complex.triangles);
+        for (const EdgeTable::Edge& e : edges.edges()) {
+            if (!is_smooth(complex, edges.triangles(e))) {
+                lines_.add({point(complex.points[e.a]), point(complex.points[e.b])});
+            }
+        }
+        lines_.build();
     }
-    for (const Triangle& t : from.triangles) {
-        measure(centroid(corners(from, t)));
-    }
-    return std::min(most, limit);
-}
 
-std::vector<std::vector<std::uint32_t>> neighbours(const FaultMesh& mesh) {
-    std::vector<std::vector<std::uint32_t>> result(mesh.points.size());
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            result[t[k]].push_back(t[(k + 1) % 3]);
-            result[t[k]].push_back(t[(k + 2) % 3]);
+    /// The sharpest turns of rims and junctions first, and none near another, or a ragged rim would stay as fine as it
+    /// came.
+    void keep_corners(const FaultComplex& complex) {
+        std::vector<std::pair<double, std::uint32_t>> turns;
+        for (std::uint32_t v = 0; v < complex.points.size(); ++v) {
+            const auto classified = editor_.classify(v);
+            if (classified.kind == PointKind::chain) {
+                const Vec3 before = unit(complex.points[v] - complex.points[classified.along[0]]);
+                const Vec3 after = unit(complex.points[classified.along[1]] - complex.points[v]);
+                if (dot(before, after) < std::cos(corner_turn)) {
+                    turns.emplace_back(dot(before, after), v);
+                }
+            }
         }
-    }
-    for (auto& list : result) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
-    return result;
-}
-
-/// Marks the neighbours of the marked as well.
-void widen(std::vector<char>& marked, const std::vector<std::vector<std::uint32_t>>& all) {
-    const std::vector<char> before = marked;
-    for (std::size_t v = 0; v < all.size(); ++v) {
-        if (before[v] != 0) {
-            for (const std::uint32_t w : all[v]) {
-                marked[w] = 1;
+        std::ranges::sort(turns);
+        PointGrid kept(sizes_.spacing());
+        for (const auto& [straightness, v] : turns) {
+            if (!kept.any_within(editor_.point(v), shortest * editor_.size(v))) {
+                kept.insert(editor_.point(v));
+                editor_.fix(v);
             }
         }
     }
-}
+
+    [[nodiscard]] Vec3 on_surface(std::uint32_t patch, const Vec3& p) const { return surfaces_[patch]->nearest(p); }
+
+    void split_long() {
+        for (bool any = true; any;) {
+            any = false;
+            auto edges = editor_.edges();
+            sort_by_length(edges);
+            for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge) {
+                const auto [u, v] = *edge;
+                const double wanted = editor_.target(u, v);
+                const std::vector<std::uint32_t> of_edge = editor_.edge_triangles(u, v);
+                if (of_edge.empty() || editor_.edge_length(u, v) <= longest * wanted) {
+                    continue;
+                }
+                const Vec3 middle = 0.5 * (editor_.point(u) + editor_.point(v));
+                Vec3 at = editor_.is_feature(of_edge) ? lines_.nearest(middle)
+                                                      : on_surface(editor_.triangles()[of_edge[0]].patch, middle);
+                if (distance(at, middle) > 0.2 * wanted) {
+                    at = middle;
+                }
+                editor_.split_edge(u, v, at);
+                ++report_.splits;
+                any = true;
+            }
+        }
+    }
+
+    void sort_by_length(std::vector<std::array<std::uint32_t, 2>>& edges) const {
+        std::vector<std::pair<double, std::array<std::uint32_t, 2>>> keyed;
+        keyed.reserve(edges.size());
+        for (const auto& e : edges) {
+            keyed.emplace_back(editor_.edge_length(e[0], e[1]) / editor_.target(e[0], e[1]), e);
+        }
+        std::ranges::sort(keyed);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            edges[i] = keyed[i].second;
+        }
+    }
+
+    void collapse_short() {
+        for (int pass = 0; pass < 4; ++pass) {
+            auto edges = editor_.edges();
+            std::erase_if(edges, [&](const auto& e) {
+                return editor_.edge_length(e[0], e[1]) > shortest * editor_.target(e[0], e[1]);
+            });
+            sort_by_length(edges);
+            bool any = false;
+            for (auto [u, v] : edges) {
+                if (!editor_.has_edge(u, v) || editor_.edge_length(u, v) > shortest * editor_.target(u, v)) {
+                    continue;
+                }
+                if (editor_.classify(u).kind > editor_.classify(v).kind) {
+                    std::swap(u, v);
+                }
+                const bool done = editor_.collapse(u, v) || editor_.collapse(v, u);
+                any = any || done;
+                report_.collapses += done ? 1 : 0;
+            }
+            if (!any) {
+                return;
+            }
+        }
+    }
+
+    void flip_all(int passes) {
+        for (int pass = 0; pass < passes; ++pass) {
+            bool any = false;
+            for (const auto& [u, v] : editor_.edges()) {
+                if (editor_.flip(u, v)) {
+                    any = true;
+                    ++report_.flips;
+                }
+            }
+            if (!any) {
+                return;
+            }
+        }
+    }
+
+    /// Centroidal for triangles inside a patch, halfway between neighbours along a chain.
+    void smooth(double share) {
+        for (std::uint32_t v = 0; v < editor_.point_count(); ++v) {
+            if (editor_.star(v).empty()) {
+                continue;
+            }
+            const auto classified = editor_.classify(v);
+            if (classified.kind == PointKind::node) {
+                continue;
+            }
+            const Vec3 to =
+                classified.kind == PointKind::chain ? evened(v, classified.along, share) : centred(v, share);
+            if (stays_sound(v, to)) {
+                editor_.move(v, to);
+            }
+        }
+    }
+
+    [[nodiscard]] Vec3 evened(std::uint32_t v, const std::vector<std::uint32_t>& along, double share) const {
+        const double one = editor_.edge_length(v, along[0]) / editor_.target(v, along[0]);
+        const double other = editor_.edge_length(v, along[1]) / editor_.target(v, along[1]);
+        const Vec3& farther = editor_.point(one > other ? along[0] : along[1]);
+        const double step = 0.5 * std::abs(one - other) * editor_.size(v) * share;
+        return lines_.nearest(editor_.point(v) + step * unit(farther - editor_.point(v)));
+    }
+
+    [[nodiscard]] Vec3 centred(std::uint32_t v, double share) const {
+        Vec3 sum;
+        double total = 0;
+        for (const std::uint32_t t : editor_.star(v)) {
+            const TriangleCorners c = editor_.corners(t);
+            const Vec3 area = area_vector(c);
+            const double weight = length(area);
+            const Vec3 middle = centroid(c);
+            Vec3 aim = middle;
+            if (weight > 0) {  // between centroid and circumcentre
+                const Vec3 ab = c[1] - c[0];
+                const Vec3 ac = c[2] - c[0];
+                const Vec3 normal = cross(ab, ac);
+                const Vec3 circumcenter =
+                    c[0] + (squared_length(ac) * cross(normal, ab) + squared_length(ab) * cross(ac, normal)) /
+                               (2 * squared_length(normal));
+                if (squared_distance(circumcenter, middle) < 0.3 * editor_.size(v) * editor_.size(v)) {
+                    aim = 0.5 * (middle + circumcenter);
+                }
+            }
+            sum = sum + weight * (aim - editor_.point(v));
+            total += weight;
+        }
+        if (!(total > 0)) {
+            return editor_.point(v);
+        }
+        const std::uint32_t patch = editor_.triangles()[editor_.star(v).front()].patch;
+        return on_surface(patch, editor_.point(v) + (share / total) * sum);
+    }
+
+    [[nodiscard]] bool stays_sound(std::uint32_t v, const Vec3& to) const {
+        return std::ranges::all_of(editor_.star(v), [&](std::uint32_t t) {
+            const TriangleCorners before = editor_.corners(t);
+            TriangleCorners after = before;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (editor_.triangles()[t].corners[k] == v) {
+                    after[k] = to;
+                }
+            }
+            const Vec3 was = area_vector(before);
+            const Vec3 is = area_vector(after);
+            return dot(unit(was), unit(is)) >= 0.7 && squared_length(is) >= 0.04 * squared_length(was);
+        });
+    }
+
+    struct Nearby {
+        std::vector<std::uint32_t> triangles;
+        std::vector<std::size_t> begin;  ///< by point
+
+        [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t v) const {
+            return {triangles.data() + begin[v], begin[v + 1] - begin[v]};
+        }
+    };
+
+    /// The triangles whose boxes come nearer to a point than `share` of its size, but for its own: boxes of all sizes
+    /// are no worse than boxes of one.
+    [[nodiscard]] Nearby triangles_near_points(double share) const {
+        using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+        std::vector<Box> around;
+        for (std::uint32_t v = 0; v < editor_.point_count(); ++v) {
+            if (!editor_.star(v).empty()) {
+                const double reach = share * editor_.size(v);
+                const Vec3 lo = editor_.point(v) - Vec3{reach, reach, reach};
+                const Vec3 hi = editor_.point(v) + Vec3{reach, reach, reach};
+                around.emplace_back(CGAL::Bbox_3(lo.x, lo.y, lo.z, hi.x, hi.y, hi.z), v);
+            }
+        }
+        std::vector<Box> boxes;
+        for (std::uint32_t t = 0; t < editor_.triangles().size(); ++t) {
+            if (editor_.triangles()[t].alive) {
+                const TriangleCorners c = editor_.corners(t);
+                boxes.emplace_back(point(c[0]).bbox() + point(c[1]).bbox() + point(c[2]).bbox(), t);
+            }
+        }
+        std::vector<std::array<std::uint32_t, 2>> pairs;
+        CGAL::box_intersection_d(around.begin(), around.end(), boxes.begin(), boxes.end(),
+                                 [&](const Box& a, const Box& b) {
+                                     if (!std::ranges::count(editor_.triangles()[b.info()].corners, a.info())) {
+                                         pairs.push_back({a.info(), b.info()});
+                                     }
+                                 });
+        std::ranges::sort(pairs);
+        Nearby result;
+        result.begin.assign(editor_.point_count() + 1, 0);
+        for (const auto& [v, t] : pairs) {
+            ++result.begin[v + 1];
+            result.triangles.push_back(t);
+        }
+        std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+        return result;
+    }
+
+    /// Merges each point that comes nearer than `share` edge lengths to a triangle it is no corner of into that
+    /// triangle: into a corner, a new point of an edge, or a new point inside, whichever is near.
+    void snap_close(double share) {
+        const Nearby nearby = triangles_near_points(1.3 * share);  // points move meanwhile
+        const auto count = static_cast<std::uint32_t>(editor_.point_count());
+        for (std::uint32_t v = 0; v < count; ++v) {
+            for (int again = 0; again < 3 && !editor_.star(v).empty(); ++again) {
+                const double limit = share * editor_.size(v);
+                double nearest = limit * limit;
+                std::uint32_t which = 0;
+                bool found = false;
+                for (const std::uint32_t t : nearby.of(v)) {
+                    const auto& triangle = editor_.triangles()[t];
+                    if (!triangle.alive || triangle.corners[0] == v || triangle.corners[1] == v ||
+                        triangle.corners[2] == v) {
+                        continue;
+                    }
+                    const TriangleCorners c = editor_.corners(t);  // points may have moved since
+                    if (beyond_box(editor_.point(v), c, limit) || is_needle(t)) {
+                        continue;
+                    }
+                    const Vec3 foot = closest_point_on_triangle(editor_.point(v), c[0], c[1], c[2]);
+                    if (const double d = squared_distance(foot, editor_.point(v)); d < nearest) {
+                        nearest = d;
+                        which = t;
+                        found = true;
+                    }
+                }
+                if (!found || snap_onto(v, which)) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Takes out triangles almost without height: their long edge gets their third corner.
+    void flatten_thin() {
+        const std::size_t count = editor_.triangles().size();  // what comes of it waits for the next round
+        for (std::uint32_t t = 0; t < count; ++t) {
+            if (!editor_.triangles()[t].alive) {
+                continue;
+            }
+            const TriangleCorners c = editor_.corners(t);
+            const Triangle ends = editor_.triangles()[t].corners;
+            std::size_t apex = 0;
+            for (std::size_t k = 1; k < 3; ++k) {
+                if (distance(c[(k + 1) % 3], c[(k + 2) % 3]) > distance(c[(apex + 1) % 3], c[(apex + 2) % 3])) {
+                    apex = k;
+                }
+            }
+            const std::uint32_t a = ends[(apex + 1) % 3];
+            const std::uint32_t b = ends[(apex + 2) % 3];
+            const double base = editor_.edge_length(a, b);
+            if (2 * length(area_vector(c)) >= thin * editor_.size(ends[apex]) * base) {
+                continue;
+            }
+            const double along = dot(c[apex] - editor_.point(a), editor_.point(b) - editor_.point(a)) / (base * base);
+            if (along < 0.1 || along > 0.9) {
+                unite(ends[apex], along < 0.5 ? a : b);
+            } else {
+                const Vec3 foot = editor_.point(a) + along * (editor_.point(b) - editor_.point(a));
+                unite(ends[apex], editor_.split_edge(a, b, foot));
+            }
+            ++report_.snaps;
+        }
+    }
+
+    /// The one that is freer to move gives way.
+    void unite(std::uint32_t u, std::uint32_t v) {
+        if (editor_.classify(u).kind > editor_.classify(v).kind) {
+            std::swap(u, v);
+        }
+        editor_.merge(u, v);
+    }
+
+    [[nodiscard]] bool is_needle(std::uint32_t t) const {
+        const TriangleCorners c = editor_.corners(t);
+        const double side = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+        return length(area_vector(c)) < 1e-4 * side * side;
+    }
+
+    /// True when v is gone.
+    bool snap_onto(std::uint32_t v, std::uint32_t t) {
+        const TriangleCorners c = editor_.corners(t);
+        const Vec3 foot = closest_point_on_triangle(editor_.point(v), c[0], c[1], c[2]);
+        const double touching = 0.05 * editor_.size(v);
+        const Triangle ends = editor_.triangles()[t].corners;
+        std::uint32_t into = 0;
+        bool is_corner = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (distance(c[k], foot) < touching) {
+                into = ends[k];
+                is_corner = true;
+            }
+        }
+        if (!is_corner) {
+            into = new_point_at(t, foot, touching);
+        }
+        ++report_.snaps;
+        const PointKind kind = editor_.classify(v).kind;
+        if (is_corner && editor_.classify(into).kind > kind) {
+            editor_.merge(v, into);
+            return true;
+        }
+        if (kind == PointKind::interior && !is_corner) {
+            editor_.move(v, 0.5 * (editor_.point(v) + foot));
+        }
+        editor_.merge(into, v);
+        return false;
+    }
+
+    std::uint32_t new_point_at(std::uint32_t t, const Vec3& foot, double touching) {
+        const TriangleCorners c = editor_.corners(t);
+        const Triangle ends = editor_.triangles()[t].corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 along = c[(k + 1) % 3] - c[k];
+            const double share = dot(foot - c[k], along) / squared_length(along);
+            if (distance(c[k] + share * along, foot) < touching) {
+                return editor_.split_edge(ends[k], ends[(k + 1) % 3], foot);
+            }
+        }
+        return editor_.split_triangle(t, foot);
+    }
+
+    /// Verifies, and repairs by snapping from farther and farther; keeps the best.
+    FaultComplex settle() {
+        FaultComplex best;
+        std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        for (int repair = 0; repair <= repairs; ++repair) {
+            FaultComplex now = editor_.result();
+            auto crossings = crossing_triangles(now);
+            const auto [wedge, sharp] = sharp_wedges(now);
+            const std::size_t faults = 1000 * crossings.size() + sharp + thin_triangles(now, sizes_);
+            if (faults < fewest) {
+                fewest = faults;
+                best = std::move(now);
+                report_.crossings = std::move(crossings);
+                report_.least_wedge = wedge;
+            }
+            if (fewest == 0 || repair == repairs || snap_ <= 0) {
+                break;
+            }
+            flatten_thin();
+            snap_close(std::min(snap_ + 0.02 * (repair + 1), 0.3));
+            collapse_short();
+            flip_all(3);
+            if (repair % 2 == 1) {
+                smooth(0.3);
+            }
+        }
+        return best;
+    }
+
+    static std::size_t thin_triangles(const FaultComplex& complex, const SizeField& sizes) {
+        std::size_t count = 0;
+        for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+            const TriangleCorners c = corners(complex, t);
+            const double side = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+            count += 2 * length(area_vector(c)) < thin * sizes.at(c[0]) * side ? 1 : 0;
+        }
+        return count;
+    }
+
+    static std::pair<double, std::size_t> sharp_wedges(const FaultComplex& complex) {
+        double least = std::numbers::pi;
+        std::size_t sharp = 0;
+        const EdgeTable edges(complex.triangles);
+        for (const EdgeTable::Edge& e : edges.edges()) {
+            const double angle = wedge_angle(complex, edges.triangles(e), e.a, e.b);
+            least = std::min(least, angle);
+            sharp += angle < least_wedge ? 1 : 0;
+        }
+        return {least, sharp};
+    }
+
+    Patches numbering_;
+    ComplexEditor editor_;
+    const SizeField& sizes_;
+    double snap_;
+    RemeshReport& report_;
+    std::vector<std::unique_ptr<PatchTarget>> surfaces_;
+    LineTarget lines_;
+};
 
 }  // namespace
 
-bool suits(const FaultMesh& mesh, double spacing) {
-    const double wanted = spacing * std::numbers::sqrt2 / 2 * (1 + 1e-6);
-    double total = 0;
-    double uncovered = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const TriangleCorners c = corners(mesh, t);
-        const double own = length(area_vector(c));
-        total += own;
-        uncovered += covering_radius(c) > wanted ? own : 0;
-    }
-    double rim = 0;
-    for (const RimEdge& e : rim_edges(mesh)) {
-        rim += distance(mesh.points[e.from], mesh.points[e.to]);
-    }
-    const double needed = total / (spacing * spacing) + 0.5 * rim / spacing + 1;  // of a square lattice
-    return uncovered <= 0.02 * total && static_cast<double>(mesh.points.size()) <= 1.6 * needed;
-}
-
-FaultMesh remeshed(const FaultMesh& mesh, double spacing) {
-    Box3 everywhere = bounding_box(mesh.points);
-    everywhere = everywhere.grown(1 + everywhere.diagonal());
-    try {
-        SurfaceMesh work;
-        if (!to_cgal(mesh, work)) {
-            return mesh;
-        }
-        auto constrained = work.add_property_map<SurfaceMesh::Vertex_index, bool>("v:corner", false).first;
-        constrain_corners(work, spacing, constrained);
-        const auto run = [&](unsigned iterations, unsigned relaxations) {
-            pmp::isotropic_remeshing(work.faces(), spacing, work,
-                                     CGAL::parameters::number_of_iterations(iterations)
-                                         .number_of_relaxation_steps(relaxations)
-                                         .vertex_is_constrained_map(constrained));
-        };
-        // First to size alone: relaxing takes vertex normals, whose cost explodes where collapsing a fine, torn mesh
-        // has made fans of hundreds of triangles.
-        run(1, 0);
-        run(3, 2);
-        FaultMesh result = from_cgal(work);
-        const bool sound = std::all_of(result.points.begin(), result.points.end(), is_acceptable);
-        if (sound && std::abs(area(result) - area(mesh)) <= 0.1 * area(mesh) &&
-            deviation(mesh, result, everywhere, spacing) <= 0.5 * spacing) {
-            return result;
-        }
-    } catch (const std::exception&) {  // CGAL's assertions: what it can't remesh is seeded as it is
-    }
-    return mesh;
-}
-
-double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, double limit) {
-    return std::max(farthest(a, b, where, limit), farthest(b, a, where, limit));
-}
-
-Rounding round_bends(FaultMesh& mesh, double spacing) {
-    const std::vector<std::vector<std::uint32_t>> all = neighbours(mesh);
-    std::vector<std::vector<std::uint32_t>> to_follow = all;  // a rim follows itself, or it would curl
-    for (const RimEdge& e : rim_edges(mesh)) {
-        to_follow[e.from].clear();
-        to_follow[e.to].clear();
-    }
-    for (const RimEdge& e : rim_edges(mesh)) {
-        to_follow[e.from].push_back(e.to);
-        to_follow[e.to].push_back(e.from);
-    }
-    Rounding result;
-    for (int round = 0; round < 40; ++round) {
-        const std::vector<Vec3> normals = vertex_normals(mesh);
-        std::vector<char> moving(mesh.points.size(), 0);
-        result.resolved = true;
-        for (std::size_t v = 0; v < all.size(); ++v) {
-            for (const std::uint32_t w : all[v]) {
-                const Vec3 step = mesh.points[w] - mesh.points[v];
-                const double across = std::max(length(step), 0.5 * spacing);
-                const double off = std::abs(dot(step, normals[v]));
-                if (off > 0.1 * across * across / spacing) {
-                    result.resolved = false;
-                    moving[v] = 1;
-                }
-                if (round == 0) {
-                    result.steepest = std::max(result.steepest, off / across);
-                }
-            }
-        }
-        if (result.resolved) {
-            return result;
-        }
-        widen(moving, all);
-        widen(moving, all);
-        std::vector<Vec3> moved = mesh.points;
-        for (std::size_t v = 0; v < all.size(); ++v) {
-            if (moving[v] != 0 && !to_follow[v].empty()) {
-                Vec3 mean;
-                for (const std::uint32_t w : to_follow[v]) {
-                    mean = mean + mesh.points[w] / static_cast<double>(to_follow[v].size());
-                }
-                moved[v] = mesh.points[v] + 0.6 * dot(mean - mesh.points[v], normals[v]) * normals[v];
-            }
-        }
-        mesh.points = std::move(moved);
-    }
-    return result;
+FaultComplex remeshed(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report) {
+    return Remesher(complex, sizes, snap, report).run();
 }
 
 }  // namespace terratet

@@ -2,33 +2,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: giving a fault triangles of the size of its seed spacing.
+/// Internal: a fault complex remeshed to the seeds' spacing, all sheets at once, so that junctions stay conforming.
 
-#include "tess/fault_mesh.hpp"
+#include "tess/fault_complex.hpp"
+#include "tess/size_field.hpp"
 
 namespace terratet {
 
-/// Do the vertices already suit the spacing: nearly all triangles covered within s/√2, and not many more vertices than
-/// that takes? Such a mesh, a 20 m grid for s = 20 m, is kept point by point.
-bool suits(const FaultMesh& mesh, double spacing);
-
-/// Isotropic triangles of edge length `spacing` (CGAL's isotropic remeshing; corners of the rim stay). Returns the mesh
-/// unchanged where that fails, or loses more than a tenth of the area, or strays farther than half the spacing.
-/// Deterministic. About 30 µs a vertex.
-FaultMesh remeshed(const FaultMesh& mesh, double spacing);
-
-/// Largest distance between two meshes, both ways, at their vertices and centroids that lie within `where`; distances
-/// above `limit` count as `limit`.
-double deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where, double limit);
-
-struct Rounding {
-    bool resolved = true;  ///< no bend is left that is sharper than five spacings
-    double steepest = 0;   ///< before: slope of the steepest edge against the tangent plane at its end. Halves with the
-                           ///< spacing where the surface is smooth, stays the same at a crease
+struct RemeshReport {
+    std::size_t splits = 0;
+    std::size_t collapses = 0;
+    std::size_t flips = 0;
+    std::size_t snaps = 0;                                ///< points merged into a sheet they nearly touched
+    std::vector<std::array<std::uint32_t, 2>> crossings;  ///< left over: triangles of the result
+    double least_wedge = 0;                               ///< radians; of the result
 };
 
-/// Rounds bends sharper than a radius of five spacings, which seeds at that spacing could not follow: points there move
-/// along their normals towards their neighbours until every bend is resolved, or for 40 rounds.
-Rounding round_bends(FaultMesh& mesh, double spacing);
+/// Near-equilateral triangles of the wanted edge length (split above 4/3 of it, collapse below 0.7, Delaunay flips,
+/// points centred and projected back; after Botsch and Kobbelt 2004, carried over to edges with any number of
+/// triangles). Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it, which zips
+/// wedges below about 15°; rounds of that follow until no triangles cross and no wedge is below 10°, or nothing helps.
+/// Deterministic. About 0.3 ms a point.
+FaultComplex remeshed(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report);
 
 }  // namespace terratet

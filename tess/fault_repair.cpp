@@ -8,6 +8,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "tess/fault_complex.hpp"
+
 namespace terratet {
 namespace {
 
@@ -198,6 +200,44 @@ RepairedFault repair_fault(const Surface& surface, double tolerance) {
         }
     }
     return result;
+}
+
+double drop_self_crossings(RepairedFault& repaired) {
+    double dropped_area = 0;
+    std::vector<FaultMesh> sound;
+    for (FaultMesh& part : repaired.parts) {
+        FaultComplex alone{part.points, part.triangles, std::vector<std::uint32_t>(part.triangles.size(), 0)};
+        const auto crossings = crossing_triangles(alone);
+        if (crossings.empty()) {
+            sound.push_back(std::move(part));
+            continue;
+        }
+        std::vector<std::uint32_t> meets(part.triangles.size(), 0);
+        for (const auto& [s, t] : crossings) {
+            ++meets[s];
+            ++meets[t];
+        }
+        std::vector<char> dropped(part.triangles.size(), 0);
+        for (const auto& [s, t] : crossings) {
+            if (dropped[s] == 0 && dropped[t] == 0) {
+                dropped[meets[s] >= meets[t] ? s : t] = 1;
+            }
+        }
+        FaultMesh rest{part.points, {}};
+        for (std::size_t t = 0; t < dropped.size(); ++t) {
+            if (dropped[t] == 0) {
+                rest.triangles.push_back(part.triangles[t]);
+            } else {
+                dropped_area += length(area_vector(corners(part, part.triangles[t])));
+            }
+        }
+        compact(rest);
+        for (FaultMesh& piece : connected_parts(oriented(rest))) {
+            sound.push_back(std::move(piece));
+        }
+    }
+    repaired.parts = std::move(sound);
+    return dropped_area;
 }
 
 }  // namespace terratet

@@ -23,4 +23,8 @@ struct RepairedFault {
 /// triangles. O(n log n).
 RepairedFault repair_fault(const Surface& surface, double tolerance);
 
+/// Takes out triangles, the worst first, until none cross in a part, and splits by connection again. Returns the area
+/// taken out.
+double drop_self_crossings(RepairedFault& repaired);
+
 }  // namespace terratet

@@ -14,30 +14,35 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 8;
 
-/// Edges of one triangle only.
-std::vector<std::array<std::uint32_t, 2>> rim_of(const Surface& sheet) {
-    std::map<std::array<std::uint32_t, 2>, int> uses;
-    for (const Triangle& t : sheet.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            ++uses[{std::min(a, b), std::max(a, b)}];
+/// Edges of one triangle only, of all faults together: where one fault ends on another there is no way round it.
+using EdgePlace = std::array<Vec3, 2>;
+std::map<EdgePlace, int> uses_of_edges(std::span<const Fault> faults) {
+    std::map<EdgePlace, int> uses;
+    for (const Fault& fault : faults) {
+        for (const Triangle& t : fault.sheet.triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Vec3& a = fault.sheet.vertices[t[i]];
+                const Vec3& b = fault.sheet.vertices[t[(i + 1) % 3]];
+                ++uses[a < b ? EdgePlace{a, b} : EdgePlace{b, a}];
+            }
         }
     }
-    std::vector<std::array<std::uint32_t, 2>> rim;
-    for (const auto& [edge, count] : uses) {
-        if (count == 1) {
-            rim.push_back(edge);
-        }
-    }
-    return rim;
+    return uses;
 }
 
 }  // namespace
 
 FaultRims::FaultRims(std::span<const Fault> faults) {
+    std::map<EdgePlace, int> uses = uses_of_edges(faults);
     for (const Fault& fault : faults) {
-        for (const auto& [a, b] : rim_of(fault.sheet)) {
-            edges_.push_back({fault.sheet.vertices[a], fault.sheet.vertices[b], fault.spacing});
+        for (const Triangle& t : fault.sheet.triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Vec3& a = fault.sheet.vertices[t[i]];
+                const Vec3& b = fault.sheet.vertices[t[(i + 1) % 3]];
+                if (uses[a < b ? EdgePlace{a, b} : EdgePlace{b, a}] == 1) {
+                    edges_.push_back({a, b, fault.spacing});
+                }
+            }
         }
     }
     if (!edges_.empty()) {

@@ -2,211 +2,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_seed.hpp"
 
+#include <algorithm>
 #include <numbers>
-#include <unordered_map>
+
+#include "tess/seed_grid.hpp"
 
 namespace terratet {
-namespace {
 
-/// A hash grid of base points for questions within its cell size.
-class BaseGrid {
-  public:
-    BaseGrid(double cell, const std::vector<BasePoint>& base) : cell_(cell) {
-        for (const BasePoint& b : base) {
-            insert(b);
-        }
-    }
+SeedCollector::SeedCollector(const SeedTask& task) : task_(task), seeds_(task.surface_count) {}
 
-    void insert(const BasePoint& b) { cells_[key(b.position, 0, 0, 0)].push_back(b); }
-
-    /// Visits the base points within the cell size of p, and some beyond, until the visitor returns true.
-    template <class Visit>
-    bool any_near(const Vec3& p, const Visit& visit) const {
-        for (int i = 0; i < 27; ++i) {
-            const auto cell = cells_.find(key(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-            if (cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), visit)) {
-                return true;
-            }
-        }
+bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& minus) {
+    const Vec3 above = task_.frame.snapped(plus);
+    const Vec3 below = task_.frame.snapped(minus);
+    if (above == below || taken_.contains(above) || taken_.contains(below)) {
         return false;
     }
+    taken_.insert({above, below});
+    places_.insert(places_.end(), {above, below});
+    seeds_[surface].push_back({above, 1});
+    seeds_[surface].push_back({below, -1});
+    return true;
+}
 
-  private:
-    [[nodiscard]] std::uint64_t key(const Vec3& p, int i, int j, int k) const {
-        const auto index = [&](double x, int step) {
-            const double whole = std::clamp(std::floor(x / cell_), -9e18, 9e18);
-            return static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + step);
+void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear, SeededComplex& result) {
+    const double covered = task_.sizes.spacing() * std::numbers::sqrt2 / 2 * (1 + 1e-6);
+    constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+    for (std::uint32_t surface = 0; surface < task_.surface_count; ++surface) {
+        const FaultMesh sheet = sheet_of(task_.complex, surface);
+        const std::vector<Vec3> normals = vertex_normals(sheet);
+        std::vector<BasePoint> base;
+        for (std::size_t v = 0; v < normals.size(); ++v) {
+            base.push_back({sheet.points[v], normals[v]});
+        }
+        const std::size_t own = base.size();
+        cover(
+            sheet, covered, any_number, [](const Vec3&) { return true; }, base);
+        const auto clear_of_others = [&](const Vec3& p) {
+            return task_.wall.distance_to_others(p, surface, clear) >= clear;
         };
-        constexpr std::uint64_t mask =
-            (1U << 21U) - 1;  // wraps for a continent at millimetres: collisions cost time only
-        return (index(p.x, i) & mask) << 42U | (index(p.y, j) & mask) << 21U | (index(p.z, k) & mask);
-    }
-
-    double cell_;
-    std::unordered_map<std::uint64_t, std::vector<BasePoint>> cells_;
-};
-
-bool faces(const BasePoint& b, const Vec3& normal) {
-    return dot(b.normal, normal) >= 0.5;
-}
-
-/// Adds a base point wherever a piece of the mesh lies in no base point's ball. A piece in one ball is covered, balls
-/// being convex; others are quartered down to a twelfth of the radius, and then get a point of their own.
-void fill(const FaultMesh& mesh, double radius, std::size_t most, BaseGrid& grid, std::vector<BasePoint>& base) {
-    const std::vector<Vec3> normals = vertex_normals(mesh);
-    for (const Triangle& t : mesh.triangles) {
-        const TriangleCorners whole = corners(mesh, t);
-        const Vec3 facing = unit(area_vector(whole));
-        if (facing == Vec3{}) {
-            continue;
+        cover(skirts[surface], covered, any_number, clear_of_others, base);
+        for (std::size_t k = own; k < base.size(); ++k) {
+            const Vec3 half = 0.5 * task_.width * base[k].normal;
+            add(surface, base[k].position + half, base[k].position - half);
         }
-        const auto normal_at = [&](const Vec3& p) {
-            const double a = dot(facing, area_vector({p, whole[1], whole[2]}));
-            const double b = dot(facing, area_vector({p, whole[2], whole[0]}));
-            const double c = dot(facing, area_vector({p, whole[0], whole[1]}));
-            return unit(a * normals[t[0]] + b * normals[t[1]] + c * normals[t[2]]);
-        };
-        std::vector<TriangleCorners> open{whole};
-        while (!open.empty() && base.size() <= most) {
-            const TriangleCorners piece = open.back();
-            open.pop_back();
-            const Vec3 middle = centroid(piece);
-            const double size = radius_about(middle, piece);
-            if (size <= 2 * radius && grid.any_near(middle, [&](const BasePoint& b) {
-                    return faces(b, facing) && radius_about(b.position, piece) <= radius;
-                })) {
-                continue;
-            }
-            if (size <= radius / 12) {
-                const Vec3 normal = normal_at(middle);
-                const BasePoint added{middle, faces({middle, normal}, facing) ? normal : facing};
-                base.push_back(added);
-                grid.insert(added);
-                continue;
-            }
-            const auto quarters = quartered(piece);
-            open.insert(open.end(), quarters.rbegin(), quarters.rend());
-        }
+        FaultMesh all = sheet;
+        append(all, skirts[surface]);
+        result.covering_radius.push_back(all.triangles.empty() ? 0 : covering_radius(all, base, covered));
     }
 }
 
-}  // namespace
-
-std::vector<BasePoint> base_points(const std::vector<BasePoint>& candidates, const FaultMesh& mesh, double spacing,
-                                   std::size_t most) {
-    const double radius = spacing * std::numbers::sqrt2 / 2 * (1 + 1e-6);
-    std::vector<BasePoint> base;
-    BaseGrid grid(radius, {});
-    for (const BasePoint& candidate : candidates) {
-        const bool crowded = grid.any_near(candidate.position, [&](const BasePoint& b) {
-            return faces(b, candidate.normal) && distance(b.position, candidate.position) < 0.5 * spacing;
-        });
-        if (!crowded && base.size() <= most) {
-            base.push_back(candidate);
-            grid.insert(candidate);
-        }
-    }
-    fill(mesh, radius, most, grid, base);
-    return base;
-}
-
-double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base, double at_most) {
-    const BaseGrid grid(at_most, base);
-    double reached = 0;  // by some point, so the truth is no less
-    double bound = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3 facing = unit(area_vector(corners(mesh, t)));
-        std::vector<TriangleCorners> open{corners(mesh, t)};
-        while (!open.empty() && facing != Vec3{}) {
-            const TriangleCorners piece = open.back();
-            open.pop_back();
-            const Vec3 middle = centroid(piece);
-            double near = at_most;
-            double single = std::numeric_limits<double>::infinity();  // smallest ball round a base point with all of it
-            grid.any_near(middle, [&](const BasePoint& b) {
-                if (faces(b, facing)) {
-                    near = std::min(near, distance(b.position, middle));
-                    single = std::min(single, radius_about(b.position, piece));
-                }
-                return false;
-            });
-            const double size = radius_about(middle, piece);
-            reached = std::max(reached, near);
-            if (const double within = std::min(single, near + size);
-                within <= 1.01 * reached || size <= 0.005 * at_most) {
-                bound = std::max(bound, within);
-                continue;
-            }
-            const auto quarters = quartered(piece);
-            open.insert(open.end(), quarters.begin(), quarters.end());
-        }
-    }
-    return std::min(bound, at_most);
-}
-
-Separation test_separation(const FaultMesh& sheet, const std::vector<BasePoint>& base, double covering, double width,
-                           double nearest) {
-    const double largest_piece = 1.2 * covering;
-    const BaseGrid grid(largest_piece + covering + 1.5 * width, base);
-    Separation result;
-    std::vector<BasePoint> near;  // all that can matter to a piece
-    const auto separates = [&](const Vec3& x, const Vec3& normal) {
-        for (const double offset : {nearest, 0.5 * width}) {
+void SeedCollector::test_separation(SeededComplex& result) const {
+    const FaultComplex& complex = task_.complex;
+    const SeedGrid seeds(places_, 1.2 * task_.sizes.spacing());
+    result.separated.assign(complex.triangles.size(), 1);
+    for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+        const TriangleCorners c = corners(complex, t);
+        const Vec3 normal = unit(area_vector(c));
+        const Vec3 middle = centroid(c);
+        const double away = 0.25 * task_.width * task_.sizes.at(middle) / task_.sizes.spacing();
+        for (const Vec3& x : {middle, 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0])}) {
+            const Vec3 inner = x + 0.02 * (middle - x);
             for (const double side : {1.0, -1.0}) {
-                const Vec3 place = x + side * offset * normal;
-                double own = std::numeric_limits<double>::infinity();
-                double other = own;
-                for (const BasePoint& b : near) {
-                    const Vec3 half = 0.5 * side * width * b.normal;
-                    own = std::min(own, squared_distance(place, b.position + half));
-                    other = std::min(other, squared_distance(place, b.position - half));
-                }
-                if (own >= other) {
-                    return false;
+                const Vec3 place = inner + side * away * normal;
+                const std::uint32_t nearest = seeds.nearest(place);
+                if (nearest == SeedGrid::none || task_.wall.between(place, seeds.point(nearest))) {
+                    result.separated[t] = 0;
                 }
             }
-        }
-        return true;
-    };
-    const auto bends = [&](const Vec3& x, const Vec3& normal) {
-        return std::any_of(near.begin(), near.end(), [&](const BasePoint& b) {
-            return distance(b.position, x) < 2 * covering &&
-                   (std::abs(dot(x - b.position, b.normal)) > 2e-3 * covering || dot(b.normal, normal) < 0.9999);
-        });
-    };
-    for (const Triangle& t : sheet.triangles) {
-        const Vec3 normal = unit(area_vector(corners(sheet, t)));
-        std::vector<TriangleCorners> open{corners(sheet, t)};
-        while (!open.empty() && normal != Vec3{}) {
-            const TriangleCorners piece = open.back();
-            open.pop_back();
-            const auto quarters = quartered(piece);
-            const Vec3 middle = centroid(piece);
-            const double size = radius_about(middle, piece);
-            if (size > largest_piece) {
-                open.insert(open.end(), quarters.begin(), quarters.end());
-                continue;
-            }
-            near.clear();
-            grid.any_near(middle, [&](const BasePoint& b) {
-                if (distance(b.position, middle) <= size + covering + 1.5 * width) {
-                    near.push_back(b);
-                }
-                return false;
-            });
-            std::array<Vec3, 10> samples = {piece[0], piece[1], piece[2]};
-            std::copy(quarters[3].begin(), quarters[3].end(), samples.begin() + 3);  // midpoints of the edges
-            std::transform(quarters.begin(), quarters.end(), samples.begin() + 6, centroid);
-            for (const Vec3& x : samples) {
-                if (!separates(x, normal)) {
-                    result.where = result.holds ? x : result.where;
-                    result.holds = false;
-                }
-            }
-            result.bent = result.bent || bends(middle, normal);
         }
     }
-    return result;
 }
 
 }  // namespace terratet

@@ -2,39 +2,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: base points that cover a fault and its margin, and the test, by samples, that the seeds over them separate
-/// its two sides.
+/// Internal: the seeds of a remeshed fault complex, in either mode, and what can be certified of them (DESIGN §4.2).
 
+#include <set>
 #include <vector>
 
-#include "tess/fault_mesh.hpp"
+#include "tess/fault.hpp"
+#include "tess/fault_complex.hpp"
+#include "tess/fault_cover.hpp"
+#include "tess/fault_wall.hpp"
+#include "tess/size_field.hpp"
 
 namespace terratet {
 
-struct BasePoint {
-    Vec3 position;
-    Vec3 normal;  ///< unit
+struct SeedTask {
+    const FaultComplex& complex;  ///< in exact mode with its margin row
+    const FaultWall& wall;        ///< of the complex without the row
+    const EdgeTable& edges;       ///< of `complex`
+    const SizeField& sizes;
+    const Frame& frame;
+    std::uint32_t surface_count = 0;
+    double width = 0;  ///< ε at the full spacing; smaller in proportion where triangles are
 };
 
-/// Chooses base points: the candidates in their order, but none nearer than s/2 to one chosen before; then points of
-/// the mesh wherever a piece of it is not covered within s/√2. A point covers only what faces within 60° of its own
-/// normal, so that near sheets of a fold are covered each. Gives up, with more than `most` points, when it would need
-/// more. O(n).
-std::vector<BasePoint> base_points(const std::vector<BasePoint>& candidates, const FaultMesh& mesh, double spacing,
-                                   std::size_t most);
-
-/// How far points of the mesh are from the nearest base point at most: an upper bound, within 2 % of the truth.
-/// \pre Every point is within `at_most` of one, as base_points sees to.
-double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base, double at_most);
-
-struct Separation {
-    bool holds = true;
-    bool bent = false;  ///< a base point's tangent plane leaves the sheet before the next one
-    Vec3 where;         ///< a sample that ends up on the wrong side
+struct SeededComplex {
+    std::vector<std::vector<Seed>> seeds;   ///< by surface: mirrored pairs, + first
+    std::vector<double> covering_radius;    ///< by surface
+    std::vector<double> protection_radius;  ///< by surface
+    std::vector<char> certified;            ///< by triangle: the nearest seed is on a point's own side (exact mode)
+    std::vector<char> separated;            ///< by triangle: so it is at samples a quarter of ε away from it
 };
 
-/// Is x ± δn nearest to a seed of its own side, at samples x all over the sheet and δ = `nearest` and width/2?
-Separation test_separation(const FaultMesh& sheet, const std::vector<BasePoint>& base, double covering, double width,
-                           double nearest);
+/// Paired: p ± (ε/2)n over the points; at junctions one pair for each half-sheet, turned away from the others.
+/// The skirts, by surface, are covered as well but for places nearer than r_p to other surfaces.
+SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& skirts);
+
+/// Exact: for each triangle g± = c ± h n, h² = r_i² − |c − p_i|², with the corners' radii r_i = 1.01 max R_t and c
+/// their radical centre in its plane. Certified are triangles with h² > 0, no seed strictly inside a corner's ball, and
+/// nothing between triangle and seed. The others get h = min(0.15 s, 0.9 d tan(θ/2)) over a foot inside, with rings of
+/// pairs along their junctions, wherever that enters no certified corner's ball.
+SeededComplex exact_seeds(const SeedTask& task);
+
+/// Shared by the two.
+class SeedCollector {
+  public:
+    explicit SeedCollector(const SeedTask& task);
+
+    /// Adds a mirrored pair unless one of the places is taken.
+    bool add(std::uint32_t surface, const Vec3& plus, const Vec3& minus);
+
+    /// Covers sheets and skirts with pairs, the skirts but for places nearer than `clear` to other surfaces. Then finds
+    /// the covering radii.
+    void cover_all(const std::vector<FaultMesh>& skirts, double clear, SeededComplex& result);
+
+    /// Tests each triangle's samples against the nearest seeds.
+    void test_separation(SeededComplex& result) const;
+
+    [[nodiscard]] const std::vector<std::vector<Seed>>& seeds() const { return seeds_; }
+    [[nodiscard]] const std::vector<Vec3>& places() const { return places_; }
+    std::vector<std::vector<Seed>> take() { return std::move(seeds_); }
+
+  private:
+    const SeedTask& task_;
+    std::vector<std::vector<Seed>> seeds_;
+    std::vector<Vec3> places_;
+    std::set<Vec3> taken_;
+};
 
 }  // namespace terratet

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "tess/sight.hpp"
@@ -144,6 +145,52 @@ struct TriangleTree::Impl {
         return false;
     }
 
+    struct Nearest {
+        const Corners* triangle = nullptr;
+        Vec3 place;
+        double squared_distance = std::numeric_limits<double>::infinity();
+    };
+    [[nodiscard]] Nearest nearest(const Vec3& p) const {
+        Nearest best;
+        static_cast<void>(any([&](const Box3& box) { return squared_distance_to(box, p) >= best.squared_distance; },
+                              [&](const Corners& c) {
+                                  const Vec3 place = closest_point_on_triangle(p, c[0], c[1], c[2]);
+                                  if (const double d = squared_distance(p, place); d < best.squared_distance) {
+                                      best = {&c, place, d};
+                                  }
+                                  return best.squared_distance == 0;
+                              }));
+        return best;
+    }
+
+    /// Nothing but triangle `own` between a and b?
+    [[nodiscard]] bool clear(const Vec3& a, const Vec3& b, const Corners* own) const {
+        const Sight sight(a, b);
+        const Kernel::Segment_3 segment(point(a), point(b));
+        return !any([&](const Box3& box) { return sight.misses(box); },
+                    [&](const Corners& c) { return &c != own && CGAL::do_intersect(triangle(c), segment); });
+    }
+
+    /// The side told by this triangle, if nothing hides some point inside it, seen in the direction of `towards`.
+    [[nodiscard]] std::optional<std::int8_t> side_by(const Corners& own, const Vec3& p, const Vec3& towards) const {
+        const Vec3 middle = (own[0] + own[1] + own[2]) / 3;
+        for (const double share : {0.02, 1.0, 0.3}) {
+            const Vec3 inside = towards + share * (middle - towards);
+            if (p != inside && !clear(p, inside, &own)) {
+                continue;
+            }
+            switch (CGAL::orientation(point(own[0]), point(own[1]), point(own[2]), point(p))) {
+                case CGAL::POSITIVE:
+                    return std::int8_t{1};
+                case CGAL::NEGATIVE:
+                    return std::int8_t{-1};
+                default:
+                    return triangle(own).has_on(point(p)) ? std::optional<std::int8_t>{std::int8_t{0}} : std::nullopt;
+            }
+        }
+        return {};
+    }
+
     std::vector<Corners> triangles;  ///< in the order of the leaves
     Slab slab;
     std::vector<Node> nodes;
@@ -176,16 +223,33 @@ bool TriangleTree::meets(const Vec3& a, const Vec3& b) const {
 }
 
 double TriangleTree::distance_to(const Vec3& p) const {
-    double least = std::numeric_limits<double>::infinity();  // squared
-    if (impl_) {
-        static_cast<void>(impl_->any([&](const Box3& box) { return squared_distance_to(box, p) >= least; },
-                                     [&](const Corners& c) {
-                                         const Vec3 nearest = closest_point_on_triangle(p, c[0], c[1], c[2]);
-                                         least = std::min(least, squared_distance(p, nearest));
-                                         return least == 0;
-                                     }));
+    return impl_ ? std::sqrt(impl_->nearest(p).squared_distance) : std::numeric_limits<double>::infinity();
+}
+
+std::int8_t TriangleTree::side_of(const Vec3& p) const {
+    if (!impl_) {
+        return 0;
     }
-    return std::sqrt(least);
+    const auto nearest = impl_->nearest(p);
+    if (const auto side = impl_->side_by(*nearest.triangle, p, nearest.place)) {
+        return *side;
+    }
+    double reach = nearest.squared_distance;
+    for (int widening = 0; widening < 20; ++widening) {  // an edge or corner is nearest: its other triangles, then more
+        reach = 2 * reach + 1e-18;
+        std::optional<std::int8_t> side;
+        static_cast<void>(impl_->any([&](const Box3& box) { return squared_distance_to(box, p) > reach; },
+                                     [&](const Corners& c) {
+                                         side = impl_->side_by(c, p, (c[0] + c[1] + c[2]) / 3);
+                                         return side.has_value();
+                                     }));
+        if (side) {
+            return *side;
+        }
+    }
+    const Corners& c = *nearest.triangle;
+    return CGAL::orientation(point(c[0]), point(c[1]), point(c[2]), point(p)) == CGAL::NEGATIVE ? std::int8_t{-1}
+                                                                                                : std::int8_t{1};
 }
 
 }  // namespace terratet

@@ -6,6 +6,7 @@
 /// for every neighbour of every place; CGAL's AABB tree, whose boxes are tested in interval arithmetic too, takes five
 /// times as long.
 
+#include <cstdint>
 #include <memory>
 
 #include "tess/surface.hpp"
@@ -25,6 +26,11 @@ class TriangleTree {
 
     /// To the nearest triangle; infinity without any. O(log n).
     [[nodiscard]] double distance_to(const Vec3& p) const;
+
+    /// On which side is p: +1 where the normals point, −1, or 0 on the surface? Told by the exact orientation to a
+    /// triangle that nothing of the surface hides from p. Beyond a rim the surface is thought to go on. 0 without any
+    /// triangle. O(log n).
+    [[nodiscard]] std::int8_t side_of(const Vec3& p) const;
 
   private:
     struct Impl;

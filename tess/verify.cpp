@@ -211,8 +211,9 @@ class Verifier {
             offenders.add("edge " + show(model_, point(edge.a)) + " to " + show(model_, point(edge.b)) + " crosses '" +
                           model_.faults[static_cast<std::size_t>(edge.fault)].name + "'");
         }
-        return offenders.verdict("F1", "in the extent no edge crosses a fault but between its seeds",
-                                 std::to_string(model_.faults.size()) + " faults");
+        return offenders.verdict(
+            "F1", "in the extent no edge crosses a fault but between seeds of it or of faults that meet it",
+            std::to_string(model_.faults.size()) + " faults");
     }
 
     Verdict r1() {

@@ -174,6 +174,10 @@ void validate_given(Criteria criteria) {
     validate(criteria);
 }
 
+FaultMode fault_mode(const std::string& text) {
+    return choose<FaultMode>("--fault-mode", text, {{"paired", FaultMode::paired}, {"exact", FaultMode::exact}});
+}
+
 DensityMode density_mode(const std::string& text) {
     return choose<DensityMode>("--density", text,
                                {{"canonical", DensityMode::canonical}, {"paper", DensityMode::paper}});
@@ -228,9 +232,16 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "X,Y,Z=NAME",
               "what the region (fault block) is called that holds a point",
               &a.region_names},
-             {{"fault-mode"}, "HOW", "paired (default): two sheets of mirrored points", &a.fault_mode},
+             {{"fault-mode"},
+              "HOW",
+              "paired (default): two sheets of mirrored points; exact: faults are walls of the Voronoi cells",
+              &a.fault_mode},
              {{"fault-spacing"}, "LENGTH", "between a fault's points; by default --lmin", &a.fault_spacing},
              {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},
+             {{"fault-snap"},
+              "LENGTH",
+              "faults that stop this short of another end on it; by default a twentieth of the spacing",
+              &a.fault_snap},
              {{"estimator"},
               "SPEC",
               "natural (default), laplace, linear, idw, kriging, nearest, with options as in idw:power=3; see "
@@ -260,10 +271,8 @@ void check_model_arguments(const ModelArguments& a) {
         parse_region_name(text);
     }
     density_mode(a.density);
-    if (a.fault_mode == "exact") {
-        throw UsageError("--fault-mode: exact is not available in this version; use paired");
-    }
-    choose<int>("--fault-mode", a.fault_mode, {{"paired", 0}});
+    fault_mode(a.fault_mode);
+    positive_length("--fault-snap", a.fault_snap, 1.0);
     const double spacing = positive_length("--fault-spacing", a.fault_spacing, 1.0);
     const double width = positive_length("--fault-width", a.fault_width, 1.0);
     if (spacing > 0 && width > spacing) {
@@ -302,6 +311,8 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     options.density = density_mode(a.density);
     options.faults.spacing = positive_length("--fault-spacing", a.fault_spacing, unit);
     options.faults.width = positive_length("--fault-width", a.fault_width, unit);
+    options.faults.snap = positive_length("--fault-snap", a.fault_snap, unit);
+    options.faults.mode = fault_mode(a.fault_mode);
     options.refine.max_vertices = a.max_vertices;
     options.estimator = parse_estimator(a.estimator).to_string();
     return options;

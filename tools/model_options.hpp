@@ -32,6 +32,7 @@ struct ModelArguments {
     std::string fault_mode = "paired";
     std::string fault_spacing;
     std::string fault_width;
+    std::string fault_snap;
     std::string estimator = EstimatorSpec{}.name;
     std::uint64_t max_vertices = RefineOptions{}.max_vertices;
 };

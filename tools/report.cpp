@@ -60,7 +60,13 @@ Json faults_json(const std::vector<FaultAccount>& accounts) {
                           {"area_outside", account.area_outside},
                           {"area_trimmed", account.area_trimmed},
                           {"area_refused", account.area_refused},
+                          {"deviation_median", account.deviation_median},
+                          {"deviation_p95", account.deviation_p95},
                           {"deviation_max", account.deviation_max},
+                          {"triangles", account.triangles},
+                          {"certified", account.certified},
+                          {"unseparated", account.unseparated},
+                          {"finest_spacing", account.finest_spacing},
                           {"dropped_triangles", account.dropped_triangles}});
     }
     return faults;

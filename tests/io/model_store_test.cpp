@@ -84,6 +84,7 @@ void check_same(const Model& a, const Model& b) {
     CHECK(same(a.fault_options.width, b.fault_options.width));
     CHECK(same(a.fault_options.snap, b.fault_options.snap));
     CHECK(a.fault_options.max_seeds == b.fault_options.max_seeds);
+    CHECK(a.fault_options.mode == b.fault_options.mode);
     CHECK(a.faults == b.faults);
     CHECK(a.vertices == b.vertices);
     CHECK(same(a.vertex_values.values, b.vertex_values.values));

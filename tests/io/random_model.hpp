@@ -225,7 +225,8 @@ struct RandomModel {
             model.region_names.push_back({place(), odd_name(random)});
         }
         model.density = random.below(2) ? DensityMode::paper : DensityMode::canonical;
-        model.fault_options = {random(0, 10), random(0, 1), random(0, 5), random.below(1ULL << 63)};
+        model.fault_options = {random(0, 10), random(0, 1), random(0, 5), random.below(1ULL << 63),
+                               random.below(2) == 0 ? FaultMode::paired : FaultMode::exact};
         if (random.below(4)) {  // else empty: infinities
             model.domain = {{place(), place()}, {place(), place()}};
         }

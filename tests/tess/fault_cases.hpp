@@ -8,7 +8,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,10 +57,71 @@ inline Surface dipping(const std::string& name, const Vec3& center, double strik
     return rectangle(name, center, half_length * along, half_height * down);
 }
 
+/// Round the y axis, through the middle of a 400 m cube.
+inline Surface cylinder(double radius) {
+    return gridded("cylinder", 24, 20, [=](double u, double v) {
+        const double angle = (u - 0.5) * 320 / radius;
+        return Vec3{200 + radius * std::sin(angle), 800 * v - 200, 200 - radius + radius * std::cos(angle)};
+    });
+}
+
+/// All over a 400 m cube, half way up.
+inline Surface wavy() {
+    return gridded("wavy", 40, 40, [](double u, double v) {
+        return Vec3{600 * u - 100, 600 * v - 100, 200 + 15 * std::sin(10 * u) * std::cos(9 * v)};
+    });
+}
+
+/// What every preparation promises: a complete account (F4), distinct seeds in the hull box off its faces, mirrored
+/// pairs, and covering of sheet and margin within ρ at sampled points.
+inline void check_promises(const std::vector<Surface>& surfaces, const FaultPreparation& preparation,
+                           const Box3& extent, double l_min, const FaultOptions& options = {}) {
+    REQUIRE(preparation.accounts.size() == surfaces.size());
+    std::size_t used = 0;
+    std::size_t seeds = 0;
+    for (const FaultAccount& account : preparation.accounts) {
+        INFO(account.name << ": " << account.reason);
+        const double sum = account.area_used + account.area_trimmed + account.area_outside + account.area_refused;
+        REQUIRE(std::isfinite(account.area_in));
+        REQUIRE(std::abs(sum - account.area_in) <= 1e-6 * account.area_in);
+        REQUIRE(account.area_used >= 0);
+        REQUIRE(account.area_trimmed >= 0);
+        REQUIRE(account.area_outside >= 0);
+        REQUIRE(account.area_refused >= 0);
+        REQUIRE((account.used || !account.reason.empty()));
+        REQUIRE((account.used == (account.seeds > 0)));
+        used += account.used ? 1 : 0;
+        seeds += account.seeds;
+    }
+    REQUIRE(preparation.faults.size() == used);
+    const bool exact = options.mode == FaultMode::exact;
+    std::set<Vec3> places;
+    const Box3 clear = extent.grown(hull_margin(options, l_min)).grown(-0.3 * l_min);
+    for (const Fault& fault : preparation.faults) {
+        REQUIRE(fault.seeds.size() % 2 == 0);
+        REQUIRE((exact || fault.covering_radius <= fault.spacing / std::numbers::sqrt2 * (1 + 1e-5)));
+        for (std::size_t k = 0; k < fault.seeds.size(); k += 2) {
+            REQUIRE(fault.seeds[k].side == 1);
+            REQUIRE(fault.seeds[k + 1].side == -1);
+            const double width = distance(fault.seeds[k].position, fault.seeds[k + 1].position);
+            REQUIRE(width > 0);
+            REQUIRE(width <= (exact ? 2 * fault.spacing : fault.width * (1 + 1e-6)));
+            REQUIRE(clear.contains(fault.seeds[k].position));
+            REQUIRE(clear.contains(fault.seeds[k + 1].position));
+            places.insert(fault.seeds[k].position);
+            places.insert(fault.seeds[k + 1].position);
+        }
+        for (const Vec3& p : fault.sheet.vertices) {
+            REQUIRE(extent.grown(1e-6).contains(p));
+        }
+    }
+    REQUIRE(places.size() == seeds);
+}
+
 struct CrossingCount {
     std::size_t background = 0;  ///< other vertices
-    std::size_t crossing = 0;    ///< edges that cross a sheet without both ends being its seeds
-    std::size_t paired = 0;      ///< edges that cross with both ends its seeds
+    std::size_t crossing = 0;    ///< edges that cross a sheet without both ends being its or a meeting fault's seeds
+    std::size_t paired = 0;      ///< edges that cross with both ends such seeds
 };
 
 /// Tessellates the seeds with background points, half of them right at `limit` protection radii from the faults and
@@ -121,7 +185,10 @@ inline CrossingCount count_crossings(const std::vector<Fault>& faults, const Box
         const Vec3 to = {b->point().x(), b->point().y(), b->point().z()};
         for (std::size_t f = 0; f < faults.size(); ++f) {
             if (proximity.crosses(static_cast<std::int32_t>(f), from, to)) {
-                const bool both = a->info() == static_cast<int>(f) && b->info() == static_cast<int>(f);
+                const auto its_seed = [&](int owner) {
+                    return owner >= 0 && proximity.meet(static_cast<std::int32_t>(f), owner);
+                };
+                const bool both = its_seed(a->info()) && its_seed(b->info());
                 ++(both ? count.paired : count.crossing);
             }
         }

@@ -95,7 +95,7 @@ TEST_CASE("Contradictions and impossible numbers are refused before anything is 
     CHECK_THAT(message([](auto& a) { a.df_max = {"K"}; }), Contains("--df-max: 'K' is not PROPERTY=NUMBER"));
     CHECK_THAT(message([](auto& a) { a.df_min = {"K=-1"}; }), Contains("below 0"));
     CHECK_THAT(message([](auto& a) { a.density = "sparse"; }), Contains("canonical, paper"));
-    CHECK_THAT(message([](auto& a) { a.fault_mode = "exact"; }), Contains("not available in this version"));
+    CHECK_THAT(message([](auto& a) { a.fault_mode = "approximate"; }), Contains("--fault-mode"));
     CHECK_THAT(message([](auto& a) { a.fault_spacing = "20", a.fault_width = "30"; }), Contains("--fault-width"));
     CHECK_THAT(message([](auto& a) { a.estimator = "krigging"; }), !Contains("accepted"));
     CHECK_THAT(message([](auto& a) { a.max_vertices = 0; }), Contains("--max-vertices"));

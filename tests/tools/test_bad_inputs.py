@@ -45,7 +45,7 @@ class Usage(Case):
         self.convert("--progress", "fancy", saying="--progress")
         self.convert("--estimator", "krigging", saying="natural")
         self.convert("--estimator", "idw:power=nan", saying="power")
-        self.convert("--fault-mode", "exact", saying="not available in this version")
+        self.convert("--fault-mode", "approximate", saying="--fault-mode")
         self.convert("--te", "0,0,0,1,1", saying="six numbers")
         self.convert("-tr", "0", saying="--voxel-size")
         self.convert("--of", "XYZ", saying="XYZ")

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: a fault complex under edition: edges split, collapsed and flipped, points moved and merged, while rims and
+/// junctions stay what they are. Whatever is done, sheets that share a junction go on sharing its points.
+
+#include <cstdint>
+#include <vector>
+
+#include "tess/fault_complex.hpp"
+#include "tess/size_field.hpp"
+
+namespace terratet {
+
+/// What a point may do: one inside a patch moves in it, one on a rim or a junction along it, a node stays.
+enum class PointKind : std::uint8_t { interior, chain, node };
+
+class ComplexEditor {
+  public:
+    /// Patches are those of the complex as given; they keep their numbers.
+    ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes);
+
+    struct WorkTriangle {
+        Triangle corners{};
+        std::uint32_t patch = 0;
+        std::uint32_t sheet = 0;
+        bool alive = true;
+    };
+    struct Classified {
+        PointKind kind = PointKind::interior;
+        std::vector<std::uint32_t> along;  ///< the other ends of its rim and junction edges
+    };
+
+    [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+    [[nodiscard]] const Vec3& point(std::uint32_t v) const { return points_[v]; }
+    [[nodiscard]] double size(std::uint32_t v) const { return sizes_of_[v]; }
+    [[nodiscard]] const std::vector<WorkTriangle>& triangles() const { return triangles_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& star(std::uint32_t v) const { return star_[v]; }
+    [[nodiscard]] TriangleCorners corners(std::uint32_t t) const;
+    [[nodiscard]] bool has_edge(std::uint32_t u, std::uint32_t v) const { return !edge_triangles(u, v).empty(); }
+    [[nodiscard]] double edge_length(std::uint32_t u, std::uint32_t v) const {
+        return distance(points_[u], points_[v]);
+    }
+    /// The length wanted of an edge.
+    [[nodiscard]] double target(std::uint32_t u, std::uint32_t v) const { return 0.5 * (size(u) + size(v)); }
+
+    [[nodiscard]] std::vector<std::uint32_t> edge_triangles(std::uint32_t u, std::uint32_t v) const;
+    [[nodiscard]] bool is_feature(const std::vector<std::uint32_t>& of_edge) const;
+    [[nodiscard]] Classified classify(std::uint32_t v) const;
+
+    /// All edges, ascending.
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges() const;
+
+    void fix(std::uint32_t v) { fixed_[v] = 1; }
+    void move(std::uint32_t v, const Vec3& to);
+
+    /// Returns the new point, at the given place.
+    std::uint32_t split_edge(std::uint32_t u, std::uint32_t v, const Vec3& at);
+    std::uint32_t split_triangle(std::uint32_t t, const Vec3& at);
+
+    /// Moves u into v if the shapes, the topology and the kinds of the two allow it.
+    bool collapse(std::uint32_t u, std::uint32_t v);
+
+    /// Makes one point of two, come what may; triangles that coincide then become one.
+    void merge(std::uint32_t from, std::uint32_t into);
+
+    /// Flips an inner edge of a patch that is not Delaunay.
+    bool flip(std::uint32_t u, std::uint32_t v);
+
+    [[nodiscard]] FaultComplex result() const;
+
+  private:
+    std::uint32_t add_point(const Vec3& p);
+    void add_triangle(const Triangle& t, const WorkTriangle& like);
+    void remove_triangle(std::uint32_t t);
+    [[nodiscard]] bool present(const Triangle& t) const;
+    [[nodiscard]] bool keeps_topology(std::uint32_t u, std::uint32_t v, std::size_t shared) const;
+    [[nodiscard]] bool keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) const;
+
+    const SizeField& field_;
+    std::vector<Vec3> points_;
+    std::vector<double> sizes_of_;
+    std::vector<char> fixed_;
+    std::vector<WorkTriangle> triangles_;
+    std::vector<std::vector<std::uint32_t>> star_;  ///< living triangles of each point
+};
+
+}  // namespace terratet

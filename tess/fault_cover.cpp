@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/fault_cover.hpp"
+
+#include <unordered_map>
+
+namespace terratet {
+namespace {
+
+/// A hash grid of base points for questions within its cell size.
+class BaseGrid {
+  public:
+    BaseGrid(double cell, const std::vector<BasePoint>& base) : cell_(cell) {
+        for (const BasePoint& b : base) {
+            insert(b);
+        }
+    }
+
+    void insert(const BasePoint& b) { cells_[key(b.position, 0, 0, 0)].push_back(b); }
+
+    /// Visits the base points within the cell size of p, and some beyond, until the visitor returns true.
+    template <class Visit>
+    bool any_near(const Vec3& p, const Visit& visit) const {
+        for (int i = 0; i < 27; ++i) {
+            const auto cell = cells_.find(key(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+            if (cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), visit)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    [[nodiscard]] std::uint64_t key(const Vec3& p, int i, int j, int k) const {
+        const auto index = [&](double x, int step) {
+            const double whole = std::clamp(std::floor(x / cell_), -9e18, 9e18);
+            return static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + step);
+        };
+        constexpr std::uint64_t mask =
+            (1U << 21U) - 1;  // wraps for a continent at millimetres: collisions cost time only
+        return (index(p.x, i) & mask) << 42U | (index(p.y, j) & mask) << 21U | (index(p.z, k) & mask);
+    }
+
+    double cell_;
+    std::unordered_map<std::uint64_t, std::vector<BasePoint>> cells_;
+};
+
+bool faces(const BasePoint& b, const Vec3& normal) {
+    return dot(b.normal, normal) >= 0.5;
+}
+
+/// Adds a base point wherever a piece of the mesh lies in no base point's ball. A piece in one ball is covered, balls
+/// being convex; others are quartered down to a twelfth of the radius, and then get a point of their own.
+void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
+          BaseGrid& grid, std::vector<BasePoint>& base) {
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    for (const Triangle& t : mesh.triangles) {
+        const TriangleCorners whole = corners(mesh, t);
+        const Vec3 facing = unit(area_vector(whole));
+        if (facing == Vec3{}) {
+            continue;
+        }
+        const auto normal_at = [&](const Vec3& p) {
+            const double a = dot(facing, area_vector({p, whole[1], whole[2]}));
+            const double b = dot(facing, area_vector({p, whole[2], whole[0]}));
+            const double c = dot(facing, area_vector({p, whole[0], whole[1]}));
+            return unit(a * normals[t[0]] + b * normals[t[1]] + c * normals[t[2]]);
+        };
+        std::vector<TriangleCorners> open{whole};
+        while (!open.empty() && base.size() <= most) {
+            const TriangleCorners piece = open.back();
+            open.pop_back();
+            const Vec3 middle = centroid(piece);
+            const double size = radius_about(middle, piece);
+            if (size <= 2 * radius && grid.any_near(middle, [&](const BasePoint& b) {
+                    return faces(b, facing) && radius_about(b.position, piece) <= radius;
+                })) {
+                continue;
+            }
+            if (size <= radius / 12) {
+                if (!allowed(middle)) {
+                    continue;
+                }
+                const Vec3 normal = normal_at(middle);
+                const BasePoint added{middle, faces({middle, normal}, facing) ? normal : facing};
+                base.push_back(added);
+                grid.insert(added);
+                continue;
+            }
+            const auto quarters = quartered(piece);
+            open.insert(open.end(), quarters.rbegin(), quarters.rend());
+        }
+    }
+}
+
+}  // namespace
+
+void cover(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
+           std::vector<BasePoint>& base) {
+    BaseGrid grid(radius, base);
+    fill(mesh, radius, most, allowed, grid, base);
+}
+
+double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base, double at_most) {
+    const BaseGrid grid(at_most, base);
+    double reached = 0;  // by some point, so the truth is no less
+    double bound = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 facing = unit(area_vector(corners(mesh, t)));
+        std::vector<TriangleCorners> open{corners(mesh, t)};
+        while (!open.empty() && facing != Vec3{}) {
+            const TriangleCorners piece = open.back();
+            open.pop_back();
+            const Vec3 middle = centroid(piece);
+            double near = at_most;
+            double single = std::numeric_limits<double>::infinity();  // smallest ball round a base point with all of it
+            grid.any_near(middle, [&](const BasePoint& b) {
+                if (faces(b, facing)) {
+                    near = std::min(near, distance(b.position, middle));
+                    single = std::min(single, radius_about(b.position, piece));
+                }
+                return false;
+            });
+            const double size = radius_about(middle, piece);
+            if (near >= at_most && size <= at_most / 8) {  // left uncovered on purpose
+                bound = at_most;
+                continue;
+            }
+            reached = std::max(reached, near);
+            if (const double within = std::min(single, near + size);
+                within <= 1.01 * reached || size <= 0.005 * at_most) {
+                bound = std::max(bound, within);
+                continue;
+            }
+            const auto quarters = quartered(piece);
+            open.insert(open.end(), quarters.begin(), quarters.end());
+        }
+    }
+    return std::min(bound, at_most);
+}
+
+}  // namespace terratet

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "tess/fault_seed.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr double bend_factor = 1.1;  ///< on the protection radius of bent surfaces
+constexpr double flat = 0.9999;      ///< cosine of the turn from which a surface counts as bent
+constexpr double aside = 2.0 / 3;    ///< share of half a junction's sector that a seed is turned from its half-sheet
+
+/// Triangles round a point that hang together over smooth edges: a sheet, or a half-sheet where others join it.
+struct PointFan {
+    std::uint32_t surface = 0;
+    std::uint32_t triangle = 0;  ///< one of them
+    Vec3 normal;
+    Vec3 direction;  ///< from the point into the fan
+};
+
+class PairedSeeds {
+  public:
+    explicit PairedSeeds(const SeedTask& task)
+        : task_(task), complex_(task.complex), collector_(task), star_(complex_.points.size()) {
+        for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
+            for (const std::uint32_t v : complex_.triangles[t]) {
+                star_[v].push_back(t);
+            }
+        }
+    }
+
+    SeededComplex run(const std::vector<FaultMesh>& skirts) {
+        SeededComplex result;
+        result.certified.assign(complex_.triangles.size(), 0);
+        for (std::uint32_t v = 0; v < complex_.points.size(); ++v) {
+            place(v);
+        }
+        const double spacing = task_.sizes.spacing();
+        const double widest = std::sqrt(0.5 * spacing * spacing + 0.25 * task_.width * task_.width);
+        collector_.cover_all(skirts, widest, result);
+        const std::vector<char> bent = bent_surfaces();
+        for (std::size_t surface = 0; surface < result.covering_radius.size(); ++surface) {
+            const double rho = result.covering_radius[surface];
+            result.protection_radius.push_back((bent[surface] != 0 ? bend_factor : 1.0) *
+                                               std::sqrt(rho * rho + 0.25 * task_.width * task_.width));
+        }
+        collector_.test_separation(result);
+        result.seeds = collector_.take();
+        return result;
+    }
+
+  private:
+    [[nodiscard]] std::vector<PointFan> fans(std::uint32_t v) const {
+        const std::vector<std::uint32_t>& star = star_[v];
+        std::vector<std::size_t> parent(star.size());
+        std::iota(parent.begin(), parent.end(), 0U);
+        const auto root = [&](std::size_t k) {
+            while (parent[k] != k) {
+                k = parent[k];
+            }
+            return k;
+        };
+        for (std::size_t k = 0; k < star.size(); ++k) {
+            for (const std::uint32_t w : complex_.triangles[star[k]]) {
+                const auto of_edge = w == v ? std::span<const std::uint32_t>{} : task_.edges.triangles(v, w);
+                if (!is_smooth(complex_, of_edge)) {
+                    continue;
+                }
+                const std::uint32_t other = of_edge[0] == star[k] ? of_edge[1] : of_edge[0];
+                const auto at = static_cast<std::size_t>(std::ranges::find(star, other) - star.begin());
+                const auto [low, high] = std::minmax({root(k), root(at)});
+                parent[high] = low;
+            }
+        }
+        std::vector<PointFan> result;
+        std::vector<std::size_t> number(star.size());
+        for (std::size_t k = 0; k < star.size(); ++k) {
+            if (root(k) == k) {
+                number[k] = result.size();
+                result.push_back({complex_.sheet[star[k]], star[k], {}, {}});
+            }
+            PointFan& fan = result[number[root(k)]];
+            const TriangleCorners c = corners(complex_, star[k]);
+            const Vec3 area = area_vector(c);
+            fan.normal = fan.normal + area;
+            fan.direction = fan.direction + length(area) * (centroid(c) - complex_.points[v]);
+        }
+        for (PointFan& fan : result) {
+            fan.normal = unit(fan.normal);
+            fan.direction = unit(fan.direction);
+        }
+        return result;
+    }
+
+    void place(std::uint32_t v) {
+        const std::vector<PointFan> all = fans(v);
+        const Vec3& p = complex_.points[v];
+        const double half = 0.5 * task_.width * task_.sizes.at(p) / task_.sizes.spacing();
+        if (all.size() == 1) {
+            collector_.add(all[0].surface, p + half * all[0].normal, p - half * all[0].normal);
+            return;
+        }
+        const Vec3 tangent = junction_tangent(v);
+        for (const PointFan& fan : all) {
+            Vec3 along = fan.direction - dot(fan.direction, tangent) * tangent;
+            along = unit(along - dot(along, fan.normal) * fan.normal);
+            const double turn = aside * free_angle(fan, along, tangent, all);
+            Vec3 plus = half * (std::cos(turn) * along + std::sin(turn) * fan.normal);
+            Vec3 minus = half * (std::cos(turn) * along - std::sin(turn) * fan.normal);
+            for (int tries = 0; tries < 4; ++tries) {
+                if (sees(fan, p + plus) && sees(fan, p + minus)) {
+                    collector_.add(fan.surface, p + plus, p + minus);
+                    break;
+                }
+                plus = 0.5 * plus;
+                minus = 0.5 * minus;
+            }
+        }
+    }
+
+    /// Zero where no single line runs through the point.
+    [[nodiscard]] Vec3 junction_tangent(std::uint32_t v) const {
+        std::vector<std::uint32_t> ends;
+        for (const std::uint32_t t : star_[v]) {
+            for (const std::uint32_t w : complex_.triangles[t]) {
+                if (w != v && std::ranges::find(ends, w) == ends.end()) {
+                    const auto of_edge = task_.edges.triangles(v, w);
+                    if (of_edge.size() > 1 && !is_smooth(complex_, of_edge)) {
+                        ends.push_back(w);
+                    }
+                }
+            }
+        }
+        return ends.size() == 2 ? unit(complex_.points[ends[1]] - complex_.points[ends[0]]) : Vec3{};
+    }
+
+    /// Half the angle to the nearest other half-sheet, at most 90°.
+    static double free_angle(const PointFan& fan, const Vec3& along, const Vec3& tangent,
+                             const std::vector<PointFan>& all) {
+        double least = std::numbers::pi / 2;
+        for (const PointFan& other : all) {
+            if (&other != &fan) {
+                const Vec3 way = unit(other.direction - dot(other.direction, tangent) * tangent);
+                least = std::min(least, 0.5 * std::acos(std::clamp(dot(way, along), -1.0, 1.0)));
+            }
+        }
+        return least;
+    }
+
+    [[nodiscard]] bool sees(const PointFan& fan, const Vec3& seed) const {
+        return !task_.wall.between(seed, centroid(corners(complex_, fan.triangle)), fan.triangle);
+    }
+
+    [[nodiscard]] std::vector<char> bent_surfaces() const {
+        std::vector<char> bent(task_.surface_count, 0);
+        for (std::uint32_t v = 0; v < star_.size(); ++v) {
+            for (const std::uint32_t s : star_[v]) {
+                for (const std::uint32_t t : star_[v]) {
+                    if (complex_.sheet[s] == complex_.sheet[t] &&
+                        dot(unit(area_vector(corners(complex_, s))), unit(area_vector(corners(complex_, t)))) < flat) {
+                        bent[complex_.sheet[s]] = 1;
+                    }
+                }
+            }
+        }
+        return bent;
+    }
+
+    const SeedTask& task_;
+    const FaultComplex& complex_;
+    SeedCollector collector_;
+    std::vector<std::vector<std::uint32_t>> star_;
+};
+
+}  // namespace
+
+SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& skirts) {
+    return PairedSeeds(task).run(skirts);
+}
+
+}  // namespace terratet

@@ -1,0 +1,686 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/fault_preparation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "tess/error.hpp"
+#include "tess/fault_clip.hpp"
+#include "tess/fault_margin.hpp"
+#include "tess/fault_measure.hpp"
+#include "tess/fault_remesh.hpp"
+#include "tess/fault_round.hpp"
+#include "tess/fault_row.hpp"
+#include "tess/seed_grid.hpp"
+#include "tess/triangle_grid.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr double tangle_limit = 5;      ///< area over that of the extent's faces: no surface is folded so often
+constexpr double most_dropped = 0.5;    ///< share of a fault that may be lost in repair
+constexpr double crumb = 0.5;           ///< in spacings: smaller parts go
+constexpr double alternative = 0.6;     ///< share of a fault that may run alongside another; in spacings, how near
+constexpr double zip = 0.15;            ///< in edge lengths: sheets nearer to each other than that become one
+constexpr double unseparated = 0.05;    ///< share of a fault that may stay so in paired mode
+constexpr double row_clearance = 0.6;   ///< in edge lengths: a margin row keeps that far from other surfaces
+constexpr double junction_zone = 0.45;  ///< in edge lengths: seeds nearer to a junction are its own
+constexpr double screened = 1.1;        ///< see leaks()
+constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
+constexpr std::size_t growth = 2;       ///< of the number of triangles by halvings, beyond which there are no more
+constexpr int exact_halvings = 1;       ///< against leaks in exact mode: triangles of unequal size are hard to certify
+constexpr double widest_exact = 1.5;    ///< radians: the seeds of right-angled neighbours would coincide
+
+std::string place_text(const Vec3& p) {
+    std::array<char, 96> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "(%.1f, %.1f, %.1f)", p.x, p.y, p.z);
+    return buffer.data();
+}
+
+double area_of_faces(const Box3& box) {
+    const Vec3 size = box.size();
+    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+FaultMesh whole(const RepairedFault& repaired) {
+    FaultMesh mesh;
+    for (const FaultMesh& part : repaired.parts) {
+        append(mesh, part);
+    }
+    return mesh;
+}
+
+double area_within(const RepairedFault& repaired, const Box3& extent) {
+    double sum = 0;
+    for (const FaultMesh& part : repaired.parts) {
+        sum += area(cut_to_box(part, extent).inside);
+    }
+    return sum;
+}
+
+bool crosses_itself(const FaultMesh& mesh) {
+    const FaultComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
+    return !crossing_triangles(alone).empty();
+}
+
+/// Which connected piece each triangle belongs to.
+std::vector<std::uint32_t> pieces_of(const FaultComplex& complex) {
+    std::vector<std::uint32_t> parent(complex.points.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) {
+            v = parent[v] = parent[parent[v]];
+        }
+        return v;
+    };
+    for (const Triangle& t : complex.triangles) {
+        for (const std::uint32_t v : {t[1], t[2]}) {
+            const auto [low, high] = std::minmax({root(t[0]), root(v)});
+            parent[high] = low;
+        }
+    }
+    std::vector<std::uint32_t> piece;
+    for (const Triangle& t : complex.triangles) {
+        piece.push_back(root(t[0]));
+    }
+    return piece;
+}
+
+/// Triangles whose sides nothing but the seeds' spacing decides: not at a junction or rim, nor next to one.
+std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& edges) {
+    std::vector<char> at_edge(complex.points.size(), 0);
+    for (const EdgeTable::Edge& e : edges.edges()) {
+        if (!is_smooth(complex, edges.triangles(e))) {
+            at_edge[e.a] = 1;
+            at_edge[e.b] = 1;
+        }
+    }
+    std::vector<char> near_edge = at_edge;
+    for (const Triangle& t : complex.triangles) {
+        if (std::ranges::any_of(t, [&](std::uint32_t v) { return at_edge[v] != 0; })) {
+            for (const std::uint32_t v : t) {
+                near_edge[v] = 1;
+            }
+        }
+    }
+    std::vector<char> inner;
+    for (const Triangle& t : complex.triangles) {
+        inner.push_back(std::ranges::none_of(t, [&](std::uint32_t v) { return near_edge[v] != 0; }) ? 1 : 0);
+    }
+    return inner;
+}
+
+/// Asks for half the size at the places; false when all are as fine as may be.
+bool refine_at(const std::vector<Vec3>& places, SizeField& sizes, int levels = halvings) {
+    const double finest = std::ldexp(sizes.spacing(), -levels);
+    std::vector<std::pair<Vec3, double>> wanted;
+    for (const Vec3& p : places) {
+        if (const double here = sizes.at(p); here > 1.01 * finest) {
+            wanted.emplace_back(p, std::max(finest, 0.5 * here));
+        }
+    }
+    for (const auto& [p, size] : wanted) {
+        sizes.refine(p, size);
+    }
+    return !wanted.empty();
+}
+
+std::vector<Vec3> centroids(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& pairs) {
+    std::vector<Vec3> places;
+    for (const auto& pair : pairs) {
+        for (const std::uint32_t t : pair) {
+            places.push_back(centroid(corners(complex, t)));
+        }
+    }
+    return places;
+}
+
+/// Triangles that the seeds of another surface come too near to for their size. An edge from such a seed, d away, to a
+/// vertex at least r_p away on the other side lies in an empty ball whose section with the sheet has a radius of
+/// √(d r_p) or more about the crossing: no such section is free of the sheet's own seeds where its triangles are
+/// smaller than about 1.1 √(s d); `slack` times that, where they are refined already. Seeds of the junction itself
+/// don't count.
+std::vector<Vec3> leaks(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
+                        const SizeField& sizes) {
+    const double spacing = sizes.spacing();
+    const double horizon = 0.75 * spacing;
+    std::vector<TriangleCorners> triangles;
+    for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+        triangles.push_back(corners(complex, t));
+    }
+    const TriangleGrid grid(std::move(triangles), std::vector<double>(complex.triangles.size(), horizon));
+    std::vector<Vec3> ends;
+    const EdgeTable edges(complex.triangles);
+    for (const EdgeTable::Edge& e : edges.edges()) {
+        const auto of_edge = edges.triangles(e);
+        if (of_edge.size() > 1 && !is_smooth(complex, of_edge)) {
+            for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                ends.push_back(complex.points[e.a] + share * (complex.points[e.b] - complex.points[e.a]));
+            }
+        }
+    }
+    const SeedGrid junctions(ends, 0.5 * spacing);
+    std::vector<char> leaky(complex.triangles.size(), 0);
+    for (std::uint32_t surface = 0; surface < seeds.size(); ++surface) {
+        for (const Seed& seed : seeds[surface]) {
+            const std::uint32_t junction = junctions.nearest(seed.position);
+            if (junction != SeedGrid::none &&
+                distance(junctions.point(junction), seed.position) < junction_zone * sizes.at(seed.position)) {
+                continue;
+            }
+            for (const std::uint32_t t : grid.candidates(seed.position)) {
+                const double square =
+                    complex.sheet[t] == surface ? horizon * horizon : grid.squared_distance_to(t, seed.position);
+                const double size = sizes.at(centroid(corners(complex, t)));
+                const double enough = screened * std::sqrt(spacing * std::sqrt(square));
+                if (square < horizon * horizon && size > enough) {
+                    leaky[t] = 1;
+                }
+            }
+        }
+    }
+    std::vector<Vec3> places;
+    for (std::uint32_t t = 0; t < leaky.size(); ++t) {
+        if (leaky[t] != 0) {
+            places.push_back(centroid(corners(complex, t)));
+        }
+    }
+    return places;
+}
+
+/// Points at equal places become one.
+void weld(FaultMesh& mesh) {
+    std::map<Vec3, std::uint32_t> first;
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& v : t) {
+            v = first.try_emplace(mesh.points[v], v).first->second;
+        }
+    }
+    compact(mesh);
+}
+
+Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
+    Surface result{source.name, SurfaceKind::fault, mesh.points, mesh.triangles, source.file};
+    for (Vec3& p : result.vertices) {
+        p = frame.snapped(p);
+    }
+    return result;
+}
+
+}  // namespace
+
+FaultPreparer::FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
+                             const FaultScale& scale, const FaultOptions& options, const Progress& progress)
+    : surfaces_(surfaces),
+      extent_(extent),
+      limit_(extent.grown(scale.reach)),
+      frame_(frame),
+      scale_(scale),
+      options_(options),
+      progress_(progress) {}
+
+FaultPreparation FaultPreparer::run() {
+    repair();
+    refuse_alternatives();
+    check_budget();
+    for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
+        extend(k);
+    }
+    FaultPreparation result;
+    while (std::ranges::any_of(candidates_, &Candidate::active)) {
+        if (const std::optional<Pass> pass = attempt()) {
+            finish(*pass, result);
+            break;
+        }
+    }
+    for (Candidate& candidate : candidates_) {
+        result.accounts.push_back(std::move(candidate.account));
+    }
+    return result;
+}
+
+void FaultPreparer::repair() {
+    double done = 0;
+    for (const Surface& surface : surfaces_) {
+        report_progress(progress_, "repairing faults", done++ / static_cast<double>(surfaces_.size()));
+        if (surface.kind != SurfaceKind::fault) {
+            continue;
+        }
+        Candidate candidate;
+        candidate.surface = &surface;
+        candidate.repaired = repair_fault(surface, 1e-9 * std::max(extent_.diagonal(), 1e-3));
+        screen(candidate);
+        candidates_.push_back(std::move(candidate));
+    }
+    std::ranges::stable_sort(candidates_, [](const Candidate& a, const Candidate& b) {
+        return std::tie(a.surface->name, a.surface->file, a.account.area_in, a.surface->vertices,
+                        a.surface->triangles) <
+               std::tie(b.surface->name, b.surface->file, b.account.area_in, b.surface->vertices, b.surface->triangles);
+    });
+}
+
+void FaultPreparer::screen(Candidate& candidate) {
+    FaultAccount& account = candidate.account;
+    account.name = candidate.surface->name;
+    account.file = candidate.surface->file;
+    account.parts = candidate.repaired.parts.size();
+    account.dropped_triangles = candidate.repaired.dropped;
+    account.area_in = candidate.repaired.area;
+    candidate.area_inside = area_within(candidate.repaired, extent_);
+    account.area_outside = std::max(0.0, account.area_in - candidate.area_inside);
+    if (account.area_in <= 0) {
+        refuse(candidate, "has no triangle with an area");
+        return;
+    }
+    if (candidate.area_inside <= 1e-12 * account.area_in) {
+        account.area_outside = account.area_in;
+        candidate.area_inside = 0;
+        refuse(candidate, "lies wholly outside the extent");
+        return;
+    }
+    if (candidate.area_inside > tangle_limit * area_of_faces(extent_)) {
+        refuse(candidate, "is no surface but a tangle of triangles: within the extent its area is " +
+                              short_text(candidate.area_inside / area_of_faces(extent_)) +
+                              " times that of the extent's faces; check the order of its corners");
+        return;
+    }
+    drop_self_crossings(candidate.repaired);
+    drop_crumbs(candidate.repaired.parts);
+    if (candidate.repaired.parts.empty()) {
+        refuse(candidate,
+               "is in pieces, none of which is as large as half the fault spacing " + short_text(scale_.spacing));
+        return;
+    }
+    drop_doubles(candidate.repaired.parts);
+    const double left = area_within(candidate.repaired, extent_);
+    candidate.area_dropped = std::max(0.0, candidate.area_inside - left);
+    if (left < (1 - most_dropped) * candidate.area_inside) {
+        refuse(candidate,
+               "is no surface: most of it runs through itself, lies on itself, or is in pieces smaller than "
+               "half the fault spacing");
+    }
+}
+
+/// What the spacing cannot show.
+void FaultPreparer::drop_crumbs(std::vector<FaultMesh>& parts) const {
+    std::erase_if(parts,
+                  [&](const FaultMesh& part) { return bounding_box(part.points).diagonal() < crumb * scale_.spacing; });
+}
+
+/// Parts that run alongside a larger one of the same surface.
+void FaultPreparer::drop_doubles(std::vector<FaultMesh>& parts) const {
+    std::ranges::stable_sort(parts, std::greater{}, [](const FaultMesh& part) { return area(part); });
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        const Alongside test(parts[i]);
+        const auto doubles =
+            std::remove_if(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, parts.end(), [&](const FaultMesh& part) {
+                return test.share_of(part, extent_, alternative * scale_.spacing) > alternative;
+            });
+        parts.erase(doubles, parts.end());
+    }
+}
+
+void FaultPreparer::refuse(Candidate& candidate, const std::string& reason) {
+    candidate.active = false;
+    candidate.account.reason = reason;
+    candidate.account.area_refused = candidate.area_inside;
+}
+
+/// The largest first; one that mostly runs alongside another is a second version of it.
+void FaultPreparer::refuse_alternatives() {
+    std::vector<std::size_t> order(candidates_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return candidates_[k].area_inside; });
+    std::vector<FaultMesh> meshes;
+    for (const Candidate& candidate : candidates_) {
+        meshes.push_back(candidate.active ? whole(candidate.repaired) : FaultMesh{});
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Candidate& larger = candidates_[order[i]];
+        if (!larger.active) {
+            continue;
+        }
+        const Alongside test(meshes[order[i]]);
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            Candidate& smaller = candidates_[order[j]];
+            if (smaller.active &&
+                test.share_of(meshes[order[j]], extent_, alternative * scale_.spacing) > alternative) {
+                refuse(smaller, "overlaps fault '" + larger.account.name +
+                                    "': alternative versions of one fault? keep one of them");
+            }
+        }
+    }
+}
+
+void FaultPreparer::check_budget() const {
+    const double per_area = (options_.mode == FaultMode::exact ? 4.7 : 2.4) / (scale_.spacing * scale_.spacing);
+    double seeds = 0;
+    const Candidate* largest = nullptr;
+    for (const Candidate& candidate : candidates_) {
+        if (candidate.active) {
+            seeds += per_area * candidate.area_inside;
+            largest = largest == nullptr || candidate.area_inside > largest->area_inside ? &candidate : largest;
+        }
+    }
+    if (seeds > static_cast<double>(options_.max_seeds)) {
+        throw Error("the faults need about " + short_text(seeds) + " seeds, most of them '" + largest->account.name +
+                    "', and max_seeds allows " + std::to_string(options_.max_seeds) +
+                    ": raise --fault-spacing, or leave faults out");
+    }
+}
+
+/// A rim that wavers may not be continued beyond its face, or not as far as to it: then it ends where it ended.
+void FaultPreparer::extend(std::uint32_t number) {
+    Candidate& candidate = candidates_[number];
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const FaultMesh& part : candidate.active ? candidate.repaired.parts : std::vector<FaultMesh>{}) {
+        for (const double snap : {scale_.spacing, 0.0, -infinity}) {
+            FaultMesh extended = extended_across(part, extent_, snap, scale_.reach, scale_.spacing);
+            const bool last = snap == -infinity;
+            if (last || !crosses_itself(extended)) {
+                if (last) {
+                    candidate.account.reason =
+                        "rims near the extent's faces end where they ended: extending them would fold the surface";
+                }
+                if (!extended.triangles.empty()) {
+                    candidate.sheets.push_back({std::move(extended), number});
+                }
+                break;
+            }
+        }
+    }
+}
+
+std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
+    report_progress(progress_, "cutting faults", 0);
+    const CutSheets sheets = cut();
+    if (sheets.tangled) {
+        refuse(candidates_[*sheets.tangled],
+               "is a tangle: its triangles meet those of its other parts and of other "
+               "faults all over");
+        return {};
+    }
+    SizeField sizes(scale_.spacing);
+    Pass pass;
+    pass.trimmed = sheets.trimmed;
+    const bool paired = options_.mode == FaultMode::paired;
+    std::size_t coarse = 0;
+    for (int halving = 0;; ++halving) {
+        report_progress(progress_, "meshing faults", static_cast<double>(halving) / (halvings + 1));
+        std::vector<std::array<std::uint32_t, 2>> crossings;
+        pass.complex = meshed(sheets.complex, sizes, crossings);
+        coarse = halving == 0 ? pass.complex.triangles.size() : coarse;
+        const bool last = halving == halvings || pass.complex.triangles.size() > growth * coarse + 4000;
+        if (!crossings.empty()) {
+            if (last || !refine_at(centroids(pass.complex, crossings), sizes)) {
+                refuse_crossing(pass.complex, crossings);
+                return {};
+            }
+            continue;
+        }
+        if (paired) {
+            FaultComplex rounded = pass.complex;
+            const std::vector<Vec3> bends = round_bends(rounded, sizes);
+            if (!last && refine_at(bends, sizes)) {
+                continue;
+            }
+            if (crossing_triangles(rounded).empty()) {
+                pass.complex = std::move(rounded);
+            }
+        }
+        for (Vec3& p : pass.complex.points) {
+            p = frame_.snapped(p);
+        }
+        report_progress(progress_, "seeding faults", static_cast<double>(halving) / (halvings + 1));
+        seed(pass, sizes);
+        if (!last &&
+            refine_at(leaks(pass.complex, pass.seeded.seeds, sizes), sizes, paired ? halvings : exact_halvings)) {
+            continue;
+        }
+        if (!paired) {
+            return pass;
+        }
+        const std::vector<char> inner = inner_triangles(pass.complex, EdgeTable(pass.complex.triangles));
+        std::vector<Vec3> places;
+        std::vector<double> bad(candidates_.size(), 0);
+        std::vector<Vec3> where(candidates_.size());
+        for (std::uint32_t t = 0; t < inner.size(); ++t) {
+            if (inner[t] != 0 && pass.seeded.separated[t] == 0) {
+                const TriangleCorners c = corners(pass.complex, t);
+                places.push_back(centroid(c));
+                bad[pass.complex.sheet[t]] += length(area_vector(c));
+                where[pass.complex.sheet[t]] = places.back();
+            }
+        }
+        if (!last && refine_at(places, sizes)) {
+            continue;
+        }
+        bool refused = false;
+        for (std::size_t k = 0; k < bad.size(); ++k) {
+            if (bad[k] > unseparated * candidates_[k].area_inside) {
+                refuse(candidates_[k], "bends too sharply at " + place_text(frame_.to_world(where[k])) +
+                                           ": mirrored seeds cannot tell its sides apart there; use a finer "
+                                           "--fault-spacing or the exact fault mode");
+                refused = true;
+            }
+        }
+        if (refused) {
+            return {};
+        }
+        return pass;
+    }
+}
+
+CutSheets FaultPreparer::cut() {
+    std::vector<Sheet> sheets;
+    for (const Candidate& candidate : candidates_) {
+        if (candidate.active) {
+            sheets.insert(sheets.end(), candidate.sheets.begin(), candidate.sheets.end());
+        }
+    }
+    extend_to_neighbours(sheets, scale_.snap);
+    return cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap);
+}
+
+/// The smaller one of each pair goes, unless the larger one went already.
+bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
+                                  const std::string& what) {
+    bool any = false;
+    for (const auto& [a, b] : pairs) {
+        if (!candidates_[a].active || !candidates_[b].active) {
+            continue;
+        }
+        if (a == b) {
+            refuse(candidates_[a], "meets itself where its parts touch: no sheet can be made of it");
+        } else {
+            const bool first_larger = candidates_[a].area_inside >= candidates_[b].area_inside;
+            Candidate& smaller = candidates_[first_larger ? b : a];
+            refuse(smaller, what + candidates_[first_larger ? a : b].account.name + "'");
+        }
+        any = true;
+    }
+    return any;
+}
+
+/// Pieces that already suit the spacing and meet no other sheet are kept as they are.
+FaultComplex FaultPreparer::meshed(const FaultComplex& cut, const SizeField& sizes,
+                                   std::vector<std::array<std::uint32_t, 2>>& crossings) const {
+    const double widest = options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi;
+    std::map<std::uint32_t, FaultMesh> pieces;
+    const std::vector<std::uint32_t> piece_of = pieces_of(cut);
+    std::map<std::uint32_t, bool> kept;
+    if (sizes.uniform()) {
+        for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+            FaultMesh& piece = pieces[piece_of[t]];
+            piece.triangles.push_back(cut.triangles[t]);
+        }
+        for (auto& [number, piece] : pieces) {
+            piece.points = cut.points;
+            compact(piece);
+            kept[number] = suits(piece, scale_.spacing, widest);
+        }
+        const EdgeTable edges(cut.triangles);
+        for (const EdgeTable::Edge& e : edges.edges()) {
+            const auto of_edge = edges.triangles(e);
+            if (of_edge.size() > 1 && !is_smooth(cut, of_edge)) {
+                kept[piece_of[of_edge[0]]] = false;
+            }
+        }
+    }
+    FaultComplex changing{cut.points, {}, {}};
+    FaultComplex staying{cut.points, {}, {}};
+    for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+        FaultComplex& to = kept[piece_of[t]] ? staying : changing;
+        to.triangles.push_back(cut.triangles[t]);
+        to.sheet.push_back(cut.sheet[t]);
+    }
+    compact(changing);
+    compact(staying);
+    RemeshReport report;
+    FaultComplex result = remeshed(changing, sizes, zip, report);
+    crossings = std::move(report.crossings);
+    const auto offset = static_cast<std::uint32_t>(result.points.size());
+    result.points.insert(result.points.end(), staying.points.begin(), staying.points.end());
+    for (const Triangle& t : staying.triangles) {
+        result.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    }
+    result.sheet.insert(result.sheet.end(), staying.sheet.begin(), staying.sheet.end());
+    return result;
+}
+
+bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
+                                    const std::vector<std::array<std::uint32_t, 2>>& crossings) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const auto& [s, t] : crossings) {
+        const auto [a, b] = std::minmax(complex.sheet[s], complex.sheet[t]);
+        pairs.emplace_back(a, b);
+    }
+    std::ranges::sort(pairs);
+    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    return refuse_failed(pairs, "is too rough for the spacing: remeshed it still crosses fault '");
+}
+
+void FaultPreparer::seed(Pass& pass, const SizeField& sizes) const {
+    const EdgeTable edges(pass.complex.triangles);
+    const FaultWall wall(pass.complex);
+    const auto count = static_cast<std::uint32_t>(candidates_.size());
+    if (options_.mode == FaultMode::paired) {
+        pass.skirts = skirts(pass.complex, edges);
+        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width}, pass.skirts);
+    } else {
+        const FaultComplex whole_complex =
+            with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
+        const EdgeTable all_edges(whole_complex.triangles);
+        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width});
+        pass.skirts.assign(count, FaultMesh{whole_complex.points, {}});
+        for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
+            pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);
+        }
+        std::ranges::for_each(pass.skirts, [](FaultMesh& mesh) { compact(mesh); });
+    }
+    pass.finest.assign(candidates_.size(), scale_.spacing);
+    for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
+        double& finest = pass.finest[pass.complex.sheet[t]];
+        finest = std::min(finest, sizes.at(centroid(corners(pass.complex, t))));
+    }
+}
+
+std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const EdgeTable& edges) const {
+    std::vector<FaultMesh> sheets(candidates_.size());
+    for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+        sheets[complex.sheet[t]].triangles.push_back(complex.triangles[t]);
+    }
+    std::vector<FaultMesh> result;
+    for (FaultMesh& sheet : sheets) {
+        if (sheet.triangles.empty()) {
+            result.emplace_back();
+            continue;
+        }
+        sheet.points = complex.points;
+        std::vector<RimEdge> rim = rim_edges(sheet);
+        std::erase_if(rim, [&](const RimEdge& e) { return edges.triangles(e.from, e.to).size() > 1; });
+        result.push_back(skirt(sheet, rim, scale_.margin, extent_, limit_));
+    }
+    return result;
+}
+
+void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {
+    std::uint64_t seeds = 0;
+    for (const auto& of_fault : pass.seeded.seeds) {
+        seeds += of_fault.size();
+    }
+    if (seeds > options_.max_seeds) {
+        throw Error("the faults need " + std::to_string(seeds) + " seeds, and max_seeds allows " +
+                    std::to_string(options_.max_seeds) + ": raise --fault-spacing, or leave faults out");
+    }
+    for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
+        if (candidates_[k].active) {
+            collect(pass, k, result);
+        }
+    }
+}
+
+void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPreparation& result) {
+    Candidate& candidate = candidates_[number];
+    FaultAccount& account = candidate.account;
+    FaultMesh certified{pass.complex.points, {}};
+    FaultMesh uncertified{pass.complex.points, {}};
+    account.finest_spacing = pass.finest[number];
+    for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
+        if (pass.complex.sheet[t] == number) {
+            const bool good = pass.seeded.certified[t] != 0;
+            (good ? certified : uncertified).triangles.push_back(pass.complex.triangles[t]);
+            account.certified += good ? 1 : 0;
+            account.unseparated += pass.seeded.separated[t] == 0 ? 1 : 0;
+            ++account.triangles;
+        }
+    }
+    compact(certified);
+    compact(uncertified);
+    BoxCut sure = cut_to_box(std::move(certified), extent_);
+    const BoxCut rest = cut_to_box(std::move(uncertified), extent_);
+    FaultMesh sheet = std::move(sure.inside);
+    std::vector<std::uint8_t> flags(sheet.triangles.size(), 1);
+    append(sheet, rest.inside);
+    flags.resize(sheet.triangles.size(), 0);
+    weld(sheet);
+    FaultMesh margin = std::move(sure.outside);
+    append(margin, rest.outside);
+    weld(margin);
+    append(margin, pass.skirts[number]);
+    if (sheet.triangles.empty()) {
+        account.reason = "nothing of it is left within the extent";
+        account.area_trimmed = candidate.area_inside;
+        return;
+    }
+    Fault fault;
+    fault.name = candidate.surface->name;
+    fault.spacing = scale_.spacing;
+    fault.width = scale_.width;
+    fault.sheet = surface_of(sheet, *candidate.surface, frame_);
+    fault.margin = surface_of(margin, *candidate.surface, frame_);
+    fault.seeds = pass.seeded.seeds[number];
+    fault.covering_radius = pass.seeded.covering_radius[number];
+    fault.protection_radius = pass.seeded.protection_radius[number];
+    account.used = true;
+    account.seeds = fault.seeds.size();
+    account.area_trimmed = std::min(candidate.area_inside, candidate.area_dropped + pass.trimmed[number]);
+    account.area_used = candidate.area_inside - account.area_trimmed;
+    FaultMesh read;
+    for (const Sheet& as_read : candidate.sheets) {  // with what was added at the extent's faces
+        append(read, as_read.mesh);
+    }
+    const Deviation measured = deviation(read, sheet, extent_);
+    account.deviation_median = measured.median;
+    account.deviation_p95 = measured.p95;
+    account.deviation_max = measured.max;
+    result.faults.push_back(std::move(fault));
+    result.certified.push_back(std::move(flags));
+}
+
+}  // namespace terratet

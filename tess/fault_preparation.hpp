@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: the steps from surfaces to faults, in their order, and who is refused on the way.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tess/fault.hpp"
+#include "tess/fault_cut.hpp"
+#include "tess/fault_repair.hpp"
+#include "tess/fault_seed.hpp"
+
+namespace terratet {
+
+/// For people: six digits.
+std::string short_text(double value);
+
+/// Every length that follows from the spacing s.
+struct FaultScale {
+    FaultScale(const FaultOptions& options, double l_min);
+
+    double spacing;
+    double width;
+    double snap;
+    double protection;  ///< the largest the protection radius should be
+    double margin;      ///< width of the margin
+    double reach;       ///< how far surfaces go on beyond the extent
+};
+
+class FaultPreparer {
+  public:
+    FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, const FaultScale& scale,
+                  const FaultOptions& options, const Progress& progress);
+
+    FaultPreparation run();
+
+  private:
+    /// A surface on its way; its place in the list is its number in the complex.
+    struct Candidate {
+        const Surface* surface = nullptr;
+        RepairedFault repaired;
+        double area_inside = 0;
+        double area_dropped = 0;    ///< taken out in repair: where it ran through itself, doubles, crumbs
+        std::vector<Sheet> sheets;  ///< extended across the extent's faces
+        bool active = true;
+        FaultAccount account;
+    };
+    /// One pass over all that is left.
+    struct Pass {
+        FaultComplex complex;
+        std::vector<double> trimmed;
+        SeededComplex seeded;
+        std::vector<FaultMesh> skirts;
+        std::vector<double> finest;  ///< size of triangles wanted, by surface
+    };
+
+    void repair();
+    void screen(Candidate& candidate);
+    void drop_crumbs(std::vector<FaultMesh>& parts) const;
+    void drop_doubles(std::vector<FaultMesh>& parts) const;
+    void refuse(Candidate& candidate, const std::string& reason);
+    void refuse_alternatives();
+    void check_budget() const;
+    void extend(std::uint32_t number);
+
+    /// Nothing when surfaces were refused and the rest is to be tried again.
+    std::optional<Pass> attempt();
+    CutSheets cut();
+    bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
+    FaultComplex meshed(const FaultComplex& cut, const SizeField& sizes,
+                        std::vector<std::array<std::uint32_t, 2>>& crossings) const;
+    bool refuse_crossing(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
+    void seed(Pass& pass, const SizeField& sizes) const;
+    [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;
+
+    void finish(const Pass& pass, FaultPreparation& result);
+    void collect(const Pass& pass, std::uint32_t number, FaultPreparation& result);
+
+    const std::vector<Surface>& surfaces_;
+    const Box3& extent_;
+    Box3 limit_;
+    const Frame& frame_;
+    FaultScale scale_;
+    const FaultOptions& options_;
+    const Progress& progress_;
+    std::vector<Candidate> candidates_;
+};
+
+}  // namespace terratet

@@ -253,13 +253,14 @@ TEST_CASE("Natural neighbour weights equal exact differences of Voronoi volumes 
     }
     cases.push_back({"lattice of tenths", tenths, inner(tenths, 20)});
 
-    std::size_t compared = 0, given_up = 0;
+    std::size_t compared = 0;
     for (const auto& [name, sites, places] : cases) {
         CAPTURE(name);
         const NaturalNeighbour estimator(sites, nullptr);
         const auto own = weights_at(estimator, places);
         const ExactVoronoi exact(sites);
         double worst = 0, worst_wide = 0, worst_exact = 0;
+        std::size_t given_up = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (own[i].extrapolation > 0) {
                 continue;
@@ -277,9 +278,9 @@ TEST_CASE("Natural neighbour weights equal exact differences of Voronoi volumes 
         CHECK(worst <= 1e-9);
         CHECK(worst_wide <= 1e-14);
         CHECK(worst_exact <= 1e-14);
+        CHECK((given_up == 0 || name == "lattice of tenths"));  // flat cells there are too much for them
     }
     CHECK(compared >= 200);
-    CHECK(given_up < compared / 2);  // cells of rounding errors' volume are too much for them
 }
 
 TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums are the weights") {

@@ -7,13 +7,23 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "interp/stamped.hpp"
 
 namespace terratet {
 namespace {
 
-constexpr double flat = 1e-6;  // directions with less than this part of the largest spread have no slope
+constexpr double amplification_max = 30;  // of differences of values, over the typical distance of neighbours
+
+constexpr double rounding = 1e-12;  // of the sum of all squares: less is none
+
+/// The fifth smallest: what a few neighbours at nearly the same place, or in the same hole, do not change.
+double typical_distance(std::vector<double> distances) {
+    const auto fifth = distances.begin() + std::min<std::ptrdiff_t>(4, std::ssize(distances) - 1);
+    std::nth_element(distances.begin(), fifth, distances.end());
+    return *fifth;
+}
 
 /// For each vertex its cells, ascending.
 struct Stars {
@@ -82,12 +92,55 @@ void find_neighbours(const CompactDelaunay& mesh, std::int32_t site, std::span<c
     }
 }
 
+struct Sighted {
+    std::int32_t vertex;
+    Eigen::Vector3d offset;
+    double seen;
+    double weight;
+};
+
+/// Least squares of slopes, only along axes on which differences of values do not count too much.
+class Fit {
+  public:
+    /// \param along  projects offsets onto the axes to look at
+    template <typename Weight>
+    Fit(const std::vector<Sighted>& neighbours, const Weight& weight_of, const Eigen::Matrix3d& along, double typical) {
+        for (const Sighted& n : neighbours) {
+            const Eigen::Vector3d offset = along * n.offset;
+            spread += weight_of(n) * n.offset * n.offset.transpose();
+            projected += weight_of(n) * offset * offset.transpose();
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(projected);
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Vector3d axis = axes.eigenvectors().col(i);
+            const double extent = axes.eigenvalues()[i];
+            double amplified = 0;
+            for (const Sighted& n : neighbours) {
+                amplified += std::abs(weight_of(n) * axis.dot(along * n.offset));
+            }
+            if (extent > rounding * spread.trace() && amplified * typical <= amplification_max * extent) {
+                inverse += axis * axis.transpose() / extent;
+                determined += axis * axis.transpose();
+            }
+        }
+    }
+
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();      ///< Σ w d dᵀ
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();     ///< its inverse on the axes that are determined
+    Eigen::Matrix3d determined = Eigen::Matrix3d::Zero();  ///< projects onto those
+
+  private:
+    Eigen::Matrix3d projected = Eigen::Matrix3d::Zero();
+};
+
+/// First with Sibson's weights; what of the slope these leave undetermined, then, from what remains, with weights 1/d,
+/// by which neighbours farther away have more say. Any weights reproduce linear fields.
 void fit(const SiteMesh& sites, std::int32_t site, const std::vector<Neighbour>& neighbours,
          std::vector<SiteGradients::Term>& out) {
     const auto points = sites.tessellation().points();
     const Vec3 p = points[static_cast<std::size_t>(site)];
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    std::vector<std::pair<std::int32_t, Eigen::Vector3d>> weighted;
+    std::vector<Sighted> sighted;
+    std::vector<double> distances;
     for (const auto& [vertex, lambda] : neighbours) {
         if (!(lambda > 0) || sites.tessellation().is_ghost(vertex)) {
             continue;
@@ -95,25 +148,23 @@ void fit(const SiteMesh& sites, std::int32_t site, const std::vector<Neighbour>&
         const double seen = sites.openness(sites.place(site), vertex);
         if (seen > 0) {
             const Vec3 d = points[static_cast<std::size_t>(vertex)] - p;
-            const Eigen::Vector3d v(d.x, d.y, d.z);
-            weighted.emplace_back(vertex, seen * lambda / v.squaredNorm() * v);
-            spread += weighted.back().second * v.transpose();
+            sighted.push_back({vertex, {d.x, d.y, d.z}, seen, seen * lambda / dot(d, d)});
+            distances.push_back(length(d));
         }
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    const double largest = axes.eigenvalues()[2];
-    if (!(largest > 0)) {
+    if (sighted.empty()) {
         return;
     }
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-        if (axes.eigenvalues()[i] > flat * largest) {
-            inverse += axes.eigenvectors().col(i) * axes.eigenvectors().col(i).transpose() / axes.eigenvalues()[i];
-        }
-    }
-    for (const auto& [vertex, v] : weighted) {
-        const Eigen::Vector3d g = inverse * v;
-        out.push_back({vertex, {g.x(), g.y(), g.z()}});
+    const double typical = typical_distance(std::move(distances));
+    const auto sibson = [](const Sighted& n) { return n.weight; };
+    const auto even = [](const Sighted& n) { return n.seen / n.offset.norm(); };
+    const Fit near(sighted, sibson, Eigen::Matrix3d::Identity(), typical);
+    const Fit far(sighted, even, Eigen::Matrix3d::Identity() - near.determined, typical);
+    const Eigen::Matrix3d remains = Eigen::Matrix3d::Identity() - far.inverse * far.spread;
+    for (const Sighted& n : sighted) {
+        const Eigen::Vector3d g =
+            remains * (near.inverse * (sibson(n) * n.offset)) + far.inverse * (even(n) * n.offset);
+        out.push_back({n.vertex, {g.x(), g.y(), g.z()}});
     }
 }
 

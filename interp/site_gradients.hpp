@@ -7,8 +7,11 @@
 /// Weighted least squares of zᵢ + ∇ᵢ·(pⱼ − pᵢ) against zⱼ. Sibson (1981) weighs with λᵢⱼ/d², λ his coordinates of pᵢ
 /// among the other sites. Here λᵢⱼ is the area of the Voronoi face of i and j over their distance d: it needs no
 /// removal of pᵢ and has the property that matters, Σⱼ λᵢⱼ (pⱼ − pᵢ) = 0 (a closed surface), by which gradients of
-/// spherical quadratics are exact inside the hull. Neighbours count as far as they can be seen. Directions in which the
-/// neighbours hardly extend have no slope.
+/// spherical quadratics are exact inside the hull. Neighbours count as far as they can be seen. A direction in which
+/// the nearest neighbours hardly extend (those in the same straight hole), or extend only to one at nearly the same
+/// place (a twin hole, a hair apart and of other values), would make noise a slope: where differences of values counted
+/// more than thirtyfold over the distance of the fifth nearest, weights are 1/d instead, and where that does not help
+/// there is no slope.
 
 #include <cstdint>
 #include <span>

@@ -71,7 +71,8 @@ TEST_CASE("Estimates with everything known about them have the values of the fas
 TEST_CASE("Probabilities of classes sum to 1, the value is the likeliest, the entropy says how sure it is") {
     const Model model = wells_model();
     const auto queries = queries_in({{0, 0, 0}, {1000, 1000, 1000}}, 3000, 34);
-    for (const std::string spec : {"natural", "idw:max_points=8", "nearest"}) {
+    for (const std::string spec :
+         {"natural", "idw:max_points=8", "nearest", "kriging:nugget=0:sill=1:range=500:ratio3=1"}) {
         const auto rock = ModelEstimator(model, no_faults(), parse_estimator(spec)).estimates(queries)[2];
         std::size_t uncertain = 0;
         for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -214,6 +214,32 @@ TEST_CASE("The smooth estimate has no kink at a sample, the plain one has") {
     CHECK(smooth < 0.05 * plain);
 }
 
+TEST_CASE("The smooth estimate takes no slope from twin samples a hair apart") {
+    // A wedged hole shares the upper part of its parent: the same places but for rounding, other values.
+    auto sites = borehole_sites(30, 20, 91);
+    const auto plain = places_in({{100, 100, 100}, {900, 900, 900}}, 2000, 92);
+    const auto largest_weight = [&] {
+        double largest = 0;
+        for (const auto& w : weights_at(*estimator_of("natural:smooth", sites), plain)) {
+            double sum = 0;
+            for (const auto& term : w.terms) {
+                sum += std::abs(term.weight);
+            }
+            largest = std::max(largest, sum);
+        }
+        return largest;
+    };
+    const double without = largest_weight();
+    for (const double apart : {1e-12, 1e-6, 0.02}) {
+        CAPTURE(apart);
+        for (std::size_t i = 0; i < 10; ++i) {
+            sites.push_back(sites[i] + Vec3{apart, -apart, 0});
+        }
+        CHECK(largest_weight() < 3 * without);
+        sites.resize(600);
+    }
+}
+
 TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults has any weight") {
     const auto sites = uniform_sites(600, 51);
     const auto places = places_in({{-100, -100, -100}, {1100, 1100, 1100}}, 100'000, 52);

@@ -231,6 +231,7 @@ FaultPreparation FaultPreparer::run() {
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
         extend(k);
     }
+    cut();
     FaultPreparation result;
     while (std::ranges::any_of(candidates_, &Candidate::active)) {
         if (const std::optional<Pass> pass = attempt()) {
@@ -397,27 +398,23 @@ void FaultPreparer::extend(std::uint32_t number) {
 }
 
 std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
-    report_progress(progress_, "cutting faults", 0);
-    const CutSheets sheets = cut();
-    if (sheets.tangled) {
-        refuse(candidates_[*sheets.tangled],
-               "is a tangle: its triangles meet those of its other parts and of other "
-               "faults all over");
-        return {};
-    }
     SizeField sizes(scale_.spacing);
     Pass pass;
-    pass.trimmed = sheets.trimmed;
+    pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
+    const FaultComplex sheets = active_sheets();
     std::size_t coarse = 0;
+    std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
     for (int halving = 0;; ++halving) {
         report_progress(progress_, "meshing faults", static_cast<double>(halving) / (halvings + 1));
         std::vector<std::array<std::uint32_t, 2>> crossings;
-        pass.complex = meshed(sheets.complex, sizes, crossings);
+        pass.complex = meshed(sheets, sizes, crossings);
         coarse = halving == 0 ? pass.complex.triangles.size() : coarse;
         const bool last = halving == halvings || pass.complex.triangles.size() > growth * coarse + 4000;
         if (!crossings.empty()) {
-            if (last || !refine_at(centroids(pass.complex, crossings), sizes)) {
+            const bool helps = 2 * crossings.size() <= crossings_before;
+            crossings_before = crossings.size();
+            if (last || !helps || !refine_at(centroids(pass.complex, crossings), sizes)) {
                 refuse_crossing(pass.complex, crossings);
                 return {};
             }
@@ -476,15 +473,36 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     }
 }
 
-CutSheets FaultPreparer::cut() {
-    std::vector<Sheet> sheets;
-    for (const Candidate& candidate : candidates_) {
-        if (candidate.active) {
-            sheets.insert(sheets.end(), candidate.sheets.begin(), candidate.sheets.end());
+/// Once for all attempts: what is refused later leaves no more than points on the others.
+void FaultPreparer::cut() {
+    do {
+        report_progress(progress_, "cutting faults", 0);
+        std::vector<Sheet> sheets;
+        for (const Candidate& candidate : candidates_) {
+            if (candidate.active) {
+                sheets.insert(sheets.end(), candidate.sheets.begin(), candidate.sheets.end());
+            }
+        }
+        extend_to_neighbours(sheets, scale_.snap);
+        cut_ = cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap);
+        if (cut_.tangled) {
+            refuse(candidates_[*cut_.tangled],
+                   "is a tangle: its triangles meet those of its other parts and of other "
+                   "faults all over");
+        }
+    } while (cut_.tangled);
+}
+
+FaultComplex FaultPreparer::active_sheets() const {
+    FaultComplex result{cut_.complex.points, {}, {}};
+    for (std::size_t t = 0; t < cut_.complex.triangles.size(); ++t) {
+        if (candidates_[cut_.complex.sheet[t]].active) {
+            result.triangles.push_back(cut_.complex.triangles[t]);
+            result.sheet.push_back(cut_.complex.sheet[t]);
         }
     }
-    extend_to_neighbours(sheets, scale_.snap);
-    return cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap);
+    compact(result);
+    return result;
 }
 
 /// The smaller one of each pair goes, unless the larger one went already.

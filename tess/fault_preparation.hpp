@@ -68,7 +68,8 @@ class FaultPreparer {
 
     /// Nothing when surfaces were refused and the rest is to be tried again.
     std::optional<Pass> attempt();
-    CutSheets cut();
+    void cut();
+    [[nodiscard]] FaultComplex active_sheets() const;
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
     FaultComplex meshed(const FaultComplex& cut, const SizeField& sizes,
                         std::vector<std::array<std::uint32_t, 2>>& crossings) const;
@@ -87,6 +88,7 @@ class FaultPreparer {
     const FaultOptions& options_;
     const Progress& progress_;
     std::vector<Candidate> candidates_;
+    CutSheets cut_;
 };
 
 }  // namespace terratet

@@ -65,6 +65,8 @@ class ComplexEditor {
     /// Makes one point of two, come what may; triangles that coincide then become one.
     void merge(std::uint32_t from, std::uint32_t into);
 
+    void remove_triangle(std::uint32_t t);
+
     /// Flips an inner edge of a patch that is not Delaunay.
     bool flip(std::uint32_t u, std::uint32_t v);
 
@@ -73,7 +75,6 @@ class ComplexEditor {
   private:
     std::uint32_t add_point(const Vec3& p);
     void add_triangle(const Triangle& t, const WorkTriangle& like);
-    void remove_triangle(std::uint32_t t);
     [[nodiscard]] bool present(const Triangle& t) const;
     [[nodiscard]] bool keeps_topology(std::uint32_t u, std::uint32_t v, std::size_t shared) const;
     [[nodiscard]] bool keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) const;

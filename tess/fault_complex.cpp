@@ -162,6 +162,57 @@ Patches patches(const FaultComplex& complex, const EdgeTable& edges) {
     return result;
 }
 
+void restore_sense(FaultComplex& complex) {
+    const EdgeTable edges(complex.triangles);
+    const auto runs = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {  // does its sense take it from a to b?
+        const Triangle& v = complex.triangles[t];
+        return (v[0] == a && v[1] == b) || (v[1] == a && v[2] == b) || (v[2] == a && v[0] == b);
+    };
+    std::vector<std::vector<std::pair<std::uint32_t, bool>>> neighbours(complex.triangles.size());
+    for (const EdgeTable::Edge& e : edges.edges()) {
+        const auto of_edge = edges.triangles(e);
+        for (const std::uint32_t s : of_edge) {
+            const auto same = [&](std::uint32_t t) { return complex.sheet[t] == complex.sheet[s]; };
+            if (std::ranges::count_if(of_edge, same) == 2) {
+                for (const std::uint32_t t : of_edge) {
+                    if (t != s && same(t)) {
+                        neighbours[s].emplace_back(t, runs(s, e.a, e.b) == runs(t, e.a, e.b));
+                    }
+                }
+            }
+        }
+    }
+    enum : std::uint8_t { unseen, as_is, turned };
+    std::vector<std::uint8_t> sense(complex.triangles.size(), unseen);
+    for (std::uint32_t first = 0; first < complex.triangles.size(); ++first) {
+        if (sense[first] != unseen) {
+            continue;
+        }
+        std::vector<std::uint32_t> piece{first};
+        sense[first] = as_is;
+        double area_turned = 0;
+        double area = 0;
+        for (std::size_t next = 0; next < piece.size(); ++next) {
+            const std::uint32_t t = piece[next];
+            const double here = length(area_vector(corners(complex, t)));
+            area += here;
+            area_turned += sense[t] == turned ? here : 0;
+            for (const auto& [other, opposed] : neighbours[t]) {
+                if (sense[other] == unseen) {
+                    sense[other] = opposed == (sense[t] == as_is) ? turned : as_is;
+                    piece.push_back(other);
+                }
+            }
+        }
+        const std::uint8_t wrong = area_turned > 0.5 * area ? as_is : turned;
+        for (const std::uint32_t t : piece) {
+            if (sense[t] == wrong) {
+                std::swap(complex.triangles[t][1], complex.triangles[t][2]);
+            }
+        }
+    }
+}
+
 Fan fan_about(const FaultComplex& complex, std::span<const std::uint32_t> of_edge, std::uint32_t a, std::uint32_t b) {
     const Vec3 origin = complex.points[a];
     const Vec3 along = unit(complex.points[b] - origin);

@@ -66,6 +66,10 @@ struct Patches {
 };
 Patches patches(const FaultComplex& complex, const EdgeTable& edges);
 
+/// Turns triangles so that those of one sheet that share an edge with no third one of it have the same sense again:
+/// that of the larger area, piece by piece.
+void restore_sense(FaultComplex& complex);
+
 /// The angles between neighbouring triangles round an edge, in radians, in the order of their directions; a rim has
 /// none.
 struct Fan {

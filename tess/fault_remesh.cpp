@@ -478,12 +478,55 @@ class Remesher {
         return editor_.split_triangle(t, foot);
     }
 
+    /// Merging may leave a triangle that lies on others of its sheet and hangs on them by some of its edges alone: a
+    /// flap, which covers nothing that is not covered.
+    void drop_flaps() {
+        for (bool any = true; any;) {
+            any = false;
+            for (std::uint32_t t = 0; t < editor_.triangles().size(); ++t) {
+                if (editor_.triangles()[t].alive && is_flap(t)) {
+                    editor_.remove_triangle(t);
+                    any = true;
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_flap(std::uint32_t t) const {
+        const Triangle& ends = editor_.triangles()[t].corners;
+        bool hangs = false;
+        bool lies_on_another = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t u = ends[k];
+            const std::uint32_t v = ends[(k + 1) % 3];
+            const std::vector<std::uint32_t> of_edge = editor_.edge_triangles(u, v);
+            hangs = hangs || of_edge.size() == 1;
+            lies_on_another =
+                lies_on_another || std::ranges::any_of(of_edge, [&](std::uint32_t other) {
+                    return other != t && editor_.triangles()[other].sheet == editor_.triangles()[t].sheet &&
+                           dot(away_from_edge(t, u, v), away_from_edge(other, u, v)) > std::cos(least_wedge);
+                });
+        }
+        return hangs && lies_on_another;
+    }
+
+    /// Unit vector in the triangle's plane, square to its edge uv.
+    [[nodiscard]] Vec3 away_from_edge(std::uint32_t t, std::uint32_t u, std::uint32_t v) const {
+        const Vec3 way = unit(editor_.point(v) - editor_.point(u));
+        const Triangle& ends = editor_.triangles()[t].corners;
+        const auto apex = *std::ranges::find_if(ends, [&](std::uint32_t w) { return w != u && w != v; });
+        const Vec3 to = editor_.point(apex) - editor_.point(u);
+        return unit(to - dot(to, way) * way);
+    }
+
     /// Verifies, and repairs by snapping from farther and farther; keeps the best.
     FaultComplex settle() {
         FaultComplex best;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         for (int repair = 0; repair <= repairs; ++repair) {
+            drop_flaps();
             FaultComplex now = editor_.result();
+            restore_sense(now);  // of triangles that coincided one stayed, whichever way it was turned
             auto crossings = crossing_triangles(now);
             const auto [wedge, sharp] = sharp_wedges(now);
             const std::size_t faults = 1000 * crossings.size() + sharp + thin_triangles(now, sizes_);

@@ -58,8 +58,8 @@ OutputRecord write_gltf(const ModelView& view, const std::string& path, const Ex
 OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
 
-/// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. What lies in the gaps
-/// of faults is no region's. O(cells).
+/// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. Gap cells are no
+/// region's: for volumes that add up to the extent's, collapse the faults before. O(cells).
 std::vector<double> region_volumes(const ModelView& view);
 
 /// The voxel size in force for a view: the given one, or the default.

@@ -73,7 +73,8 @@ class ModelReader {
     void read_surfaces();
     void read_vertices();
     Surface read_mesh(const LayerReader& layer, const schema::SurfaceColumns& columns);
-    void read_fault_part(const LayerReader& layer, const schema::SurfaceColumns& columns, bool margin);
+    void read_fault_part(const LayerReader& layer, const schema::SurfaceColumns& columns, SurfaceKind kind,
+                         bool margin);
     void find_seeds_among_vertices();
     double class_index(const LayerReader& layer, std::size_t property, const std::string& name) const;
     void append_values(const LayerReader& layer, const std::vector<Column>& columns,
@@ -231,19 +232,22 @@ Surface ModelReader::read_mesh(const LayerReader& layer, const schema::SurfaceCo
     return surface;
 }
 
-void ModelReader::read_fault_part(const LayerReader& layer, const schema::SurfaceColumns& columns, bool margin) {
+void ModelReader::read_fault_part(const LayerReader& layer, const schema::SurfaceColumns& columns, SurfaceKind kind,
+                                  bool margin) {
     const std::string name = layer.required_text_at(columns.fault);
     if (margin) {
         if (model_.faults.empty() || has_margin_.back() || model_.faults.back().name != name) {
             layer.fail("a margin must follow its fault's sheet");
         }
         model_.faults.back().margin = read_mesh(layer, columns);
+        model_.faults.back().margin.kind = kind;
         has_margin_.back() = true;
         return;
     }
     Fault fault;
     fault.name = name;
     fault.sheet = read_mesh(layer, columns);
+    fault.sheet.kind = kind;
     fault.spacing = layer.number_at(columns.spacing);
     fault.width = layer.number_at(columns.width);
     fault.covering_radius = layer.number_at(columns.covering_radius);
@@ -271,16 +275,20 @@ void ModelReader::read_surfaces() {
     const schema::SurfaceColumns columns(layer);
     while (layer.next()) {
         const std::string kind = layer.required_text_at(columns.kind);
-        if (kind == "fault_sheet" || kind == "fault_margin") {
-            read_fault_part(layer, columns, kind == "fault_margin");
+        const std::string first = kind.substr(0, kind.find('_'));
+        const std::string part = kind.substr(first.size());
+        constexpr std::array kinds{SurfaceKind::fault, SurfaceKind::horizon, SurfaceKind::topography};
+        const auto known =
+            std::find_if(kinds.begin(), kinds.end(), [&](SurfaceKind k) { return to_string(k) == first; });
+        if (known == kinds.end() || (!part.empty() && part != "_sheet" && part != "_margin")) {
+            layer.fail("\"" + kind + "\" is no kind of surface");
+        }
+        if (!part.empty()) {
+            read_fault_part(layer, columns, *known, part == "_margin");
             continue;
         }
         Surface surface = read_mesh(layer, columns);
-        if (kind == "horizon" || kind == "topography") {
-            surface.kind = kind == "horizon" ? SurfaceKind::horizon : SurfaceKind::topography;
-        } else if (kind != "fault") {
-            layer.fail("\"" + kind + "\" is no kind of surface");
-        }
+        surface.kind = *known;
         model_.surfaces.push_back(std::move(surface));
     }
     if (std::find(has_margin_.begin(), has_margin_.end(), false) != has_margin_.end()) {

@@ -248,17 +248,15 @@ void ModelWriter::write_surfaces() {
     const schema::SurfaceColumns columns(layer);
     layer.create();
     for (const Surface& surface : model_.surfaces) {
-        const char* const kinds[] = {"fault", "horizon", "topography"};
         set_mesh(layer, columns, surface);
-        layer.set(columns.kind, std::string(kinds[static_cast<std::size_t>(surface.kind)]));
+        layer.set(columns.kind, std::string(to_string(surface.kind)));
         layer.write();
     }
     for (std::size_t f = 0; f < model_.faults.size(); ++f) {
         const Fault& fault = model_.faults[f];
         for (const bool margin : {false, true}) {
-            assert((margin ? fault.margin : fault.sheet).kind == SurfaceKind::fault);
             set_mesh(layer, columns, margin ? fault.margin : fault.sheet);
-            layer.set(columns.kind, std::string(margin ? "fault_margin" : "fault_sheet"));
+            layer.set(columns.kind, to_string(fault.sheet.kind) + std::string(margin ? "_margin" : "_sheet"));
             layer.set(columns.fault, fault.name);
             layer.set(columns.spacing, fault.spacing);
             layer.set(columns.width, fault.width);

@@ -103,6 +103,9 @@ Inputs read_inputs(const SiteInputs& inputs, Diagnostics& diagnostics, const Che
     for (const Source& source : inputs.surfaces) {
         read.surfaces.push_back(read_surface_file(source, SurfaceKind::horizon, inputs, diagnostics));
     }
+    for (const Source& source : inputs.topography) {
+        read.surfaces.push_back(read_surface_file(source, SurfaceKind::topography, inputs, diagnostics));
+    }
     checkpoint.pass(0.6);
     return read;
 }
@@ -300,7 +303,8 @@ void require_consistent(const SiteInputs& inputs) {
     if (inputs.boreholes.empty() && (!inputs.surveys.empty() || !inputs.logs.empty())) {
         throw UsageError("surveys and logs need the positions of their holes: name the collar table with --boreholes");
     }
-    if (inputs.boreholes.empty() && inputs.samples.empty() && inputs.faults.empty() && inputs.surfaces.empty()) {
+    if (inputs.boreholes.empty() && inputs.samples.empty() && inputs.faults.empty() && inputs.surfaces.empty() &&
+        inputs.topography.empty()) {
         throw UsageError("no input: give --boreholes with --log, or --samples");
     }
 }

@@ -39,6 +39,7 @@ struct SiteInputs {
     std::vector<Source> samples;  ///< x, y, z, properties
     std::vector<Source> faults;
     std::vector<Source> surfaces;  ///< horizons
+    std::vector<Source> topography;
 
     std::string source_crs;               ///< -s_srs
     std::string target_crs;               ///< -t_srs

@@ -56,6 +56,9 @@ RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNa
     if (is_gocad(source.path)) {
         return read_tsurf(source, kind, diagnostics);
     }
+    if (is_raster(source.path)) {
+        return read_raster_surface(source, kind, diagnostics);
+    }
     if (is_dxf(source.path)) {
         throw InputError(
             source.path +

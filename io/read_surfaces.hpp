@@ -7,6 +7,7 @@
 /// | format | reader | notes |
 /// |---|---|---|
 /// | GOCAD TSurf (.ts) | read_tsurf | own parser; several objects and TFACEs a file, ZPOSITIVE, units |
+/// | raster of heights | read_raster_surface | GeoTIFF, ASCII grid, … |
 /// | TIN Z, PolyhedralSurface Z, MultiPolygon Z, Polygon Z | read_ogr_surfaces | any OGR layer; features of one name
 /// joined | | points x, y, z and fault name | read_fault_points | any table; triangulated in the best-fit plane |
 
@@ -47,6 +48,15 @@ RawSurfaces read_tsurf(const Source& source, SurfaceKind kind, Diagnostics& diag
 /// InputError: no z, no polygons.
 RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                               Diagnostics& diagnostics);
+
+/// Can GDAL read this as a raster? Looks at its content. False also for what cannot be opened.
+bool is_raster(const std::string& path);
+
+/// One surface for the first band's heights, named after the file: a grid of the pixels' centres, and of the raster's
+/// border, to which heights are continued linearly. Pixels without a height leave a hole. Scale and offset of the band
+/// apply; heights are in the unit of the CRS. Rasters of more than 250 000 pixels are averaged into fewer, and a note
+/// says so.
+RawSurfaces read_raster_surface(const Source& source, SurfaceKind kind, Diagnostics& diagnostics);
 
 /// One surface for all points of a name, or for the whole file without a name column, sorted by name; triangulated in
 /// their best-fit plane, in metres also for longitude and latitude (said by the file or by `source.srs`). Points

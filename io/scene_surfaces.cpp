@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/scene.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 namespace {
@@ -105,9 +106,26 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
             entry->second.add(corners, 0);
         }
     };
+    // Off the extent's faces, a facet of one cell has its twin on a fault and none on the ground.
+    const auto places_of = [&](const ClippedMesh::Facet& facet) {
+        std::array<Vec3, 3> places;
+        std::transform(facet.corners.begin(), facet.corners.end(), places.begin(),
+                       [&](std::uint32_t v) { return clipped.points[v]; });
+        std::sort(places.begin(), places.end());
+        return places;
+    };
+    std::map<std::array<Vec3, 3>, int> facets_at;
+    for (const ClippedMesh::Facet& facet : clipped.facets) {
+        if (facet.beyond < 0 && !facet.on_extent) {
+            ++facets_at[places_of(facet)];
+        }
+    }
+    constexpr int ground = 6;  // after the box's faces
     for (const ClippedMesh::Facet& facet : clipped.facets) {
         const auto& [a, b, c] = facet.corners;
-        if (facet.beyond < 0 && !facet.on_extent) {
+        if (facet.beyond < 0 && !facet.on_extent && facets_at[places_of(facet)] < 2) {
+            boundary.add({a, c, b}, ground);
+        } else if (facet.beyond < 0 && !facet.on_extent) {
             add_wall({a, b, c}, clipped.region[facet.cell]);
         } else if (facet.beyond < 0) {
             boundary.add({a, c, b}, box_face(facet_normal(clipped, facet.corners)));
@@ -131,14 +149,21 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
     return parts;
 }
 
-ScenePart fault_sheet(const Fault& fault, std::size_t index, const SceneFrame& frame) {
+ScenePart fault_sheet(const Model& model, std::size_t index, const SceneFrame& frame) {
+    const Fault& fault = model.faults[index];
     ScenePart part;
-    part.name = "fault: " + fault.name;
+    part.name = std::string(to_string(fault.sheet.kind)) + ": " + fault.name;
     // Frosted glass with a tint: a strong colour would turn what is seen through it into mud.
     const Color tint = class_color(index + 5);
     part.color = {0.4 + 0.6 * tint.r, 0.4 + 0.6 * tint.g, 0.4 + 0.6 * tint.b};
     part.opacity = 0.5;
-    part.triangles = fault.sheet.triangles;
+    const FaultProximity faults(model.faults);
+    for (const Triangle& t : fault.sheet.triangles) {
+        const auto& v = fault.sheet.vertices;
+        if (!is_above_ground(faults, (v[t[0]] + v[t[1]] + v[t[2]]) / 3)) {
+            part.triangles.push_back(t);
+        }
+    }
     part.normals.resize(fault.sheet.vertices.size());
     for (const Vec3& vertex : fault.sheet.vertices) {
         part.positions.push_back(frame.position(vertex));

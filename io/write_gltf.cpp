@@ -19,7 +19,9 @@ OutputRecord write_gltf(const ModelView& view, const std::string& path, const Ex
     std::vector<ScenePart> parts = tessellation_surfaces(view, frame);
     report_progress(options.progress, "write gltf", 0.4);
     for (std::size_t f = 0; f < view.model.faults.size(); ++f) {
-        parts.push_back(fault_sheet(view.model.faults[f], f, frame));
+        if (view.model.faults[f].sheet.kind != SurfaceKind::topography) {  // the domain ends there
+            parts.push_back(fault_sheet(view.model, f, frame));
+        }
     }
     parts.push_back(borehole_tubes(view, coloring, frame));
     std::erase_if(parts, [](const ScenePart& part) { return part.triangles.empty(); });

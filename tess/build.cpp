@@ -8,6 +8,8 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "tess/collapse.hpp"
+#include "tess/error.hpp"
 #include "tess/fault_blocks.hpp"
 
 namespace terratet {
@@ -60,6 +62,56 @@ Box3 data_box(const Site& site) {
     return box;
 }
 
+/// The highest point of the topography over the extent; −infinity without one.
+double top_of_ground(const Site& site, const Box3& extent) {
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Surface& surface : site.surfaces) {
+        for (const Vec3& p : surface.vertices) {
+            const bool over = p.x >= extent.lo.x && p.x <= extent.hi.x && p.y >= extent.lo.y && p.y <= extent.hi.y;
+            top = surface.kind == SurfaceKind::topography && over ? std::max(top, p.z) : top;
+        }
+    }
+    return top;
+}
+
+/// Throws UsageError for a topography in exact mode: its seeds cannot meet on the surface (tess/collapse.hpp).
+void require_paired_ground(const Model& model) {
+    const bool topography = std::ranges::any_of(
+        model.surfaces, [](const Surface& surface) { return surface.kind == SurfaceKind::topography; });
+    if (topography && model.fault_options.mode != FaultMode::paired) {
+        throw UsageError("--topography needs --fault-mode paired");
+    }
+}
+
+/// Throws InputError when a topography was refused, or does not cover the extent: its cells would end in a staircase.
+void require_ground(const Model& model, const BuildReport& report) {
+    for (const FaultAccount& account : report.faults) {
+        if (account.kind == SurfaceKind::topography && !account.used) {
+            throw InputError(account.file + ": the topography '" + account.name + "' cannot be used: it " +
+                             account.reason);
+        }
+    }
+    double covered = 0;
+    for (const Fault& fault : model.faults) {
+        for (const Triangle& t : fault.sheet.triangles) {
+            const Vec3& a = fault.sheet.vertices[t[0]];
+            covered += fault.sheet.kind == SurfaceKind::topography
+                           ? 0.5 * cross(fault.sheet.vertices[t[1]] - a, fault.sheet.vertices[t[2]] - a).z
+                           : 0;
+        }
+    }
+    const Vec3 size = model.domain.extent.size();
+    const double share = std::abs(covered) / (size.x * size.y);
+    if (has_ground(model) && std::abs(share - 1) > 1e-3) {
+        std::ostringstream text;
+        text.precision(4);
+        text << "the topography covers " << 100 * share
+             << " % of the extent's area, once each place: it must cover all of "
+             << "it, between bottom and top; choose an --extent within it";
+        throw InputError(text.str());
+    }
+}
+
 /// Fills in the defaults: resolution from the size of the data, extent from data and resolution.
 void resolve_resolution(const Site& site, const BuildOptions& options, Model& model) {
     const Box3 data = data_box(site);
@@ -78,6 +130,9 @@ void resolve_resolution(const Site& site, const BuildOptions& options, Model& mo
     validate(model.criteria);
     Box3 extent =
         options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad) : options.extent;
+    if (options.extent.empty()) {
+        extent.hi.z = std::max(extent.hi.z, top_of_ground(site, extent) + model.criteria.l_min);
+    }
     extent = {model.frame.snapped(extent.lo), model.frame.snapped(extent.hi)};
     const Vec3 size = extent.size();
     if (std::min({size.x, size.y, size.z}) < model.criteria.l_min) {
@@ -103,10 +158,12 @@ void suggest_z_scale(const Model& model, BuildReport& report) {
 
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
     model.fault_options = options.faults;
+    require_paired_ground(model);
     FaultPreparation preparation = prepare_faults(model.surfaces, model.domain.extent, model.frame,
                                                   model.criteria.l_min, options.faults, progress);
     model.faults = std::move(preparation.faults);
     report.faults = std::move(preparation.accounts);
+    require_ground(model, report);
     if (!model.faults.empty()) {
         const Box3 hull = model.domain.extent.grown(hull_margin(options.faults, model.criteria.l_min));
         model.domain.hull = {model.frame.snapped(hull.lo), model.frame.snapped(hull.hi)};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "tess/box_clip.hpp"
 #include "tess/insertion_rule.hpp"
@@ -88,7 +89,8 @@ bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
 class RegionLabels {
   public:
     RegionLabels(const Model& model, const TetMesh& mesh, CellTable& table)
-        : extent_(model.domain.extent),
+        : model_(model),
+          extent_(model.domain.extent),
           all_inside_(model.domain.hull == model.domain.extent),
           mesh_(mesh),
           table_(table) {}
@@ -96,9 +98,18 @@ class RegionLabels {
     void run() {
         std::vector<std::int32_t> component(mesh_.cells.size(), -1);
         for (std::uint32_t first = 0; first < mesh_.cells.size(); ++first) {
-            if (component[first] < 0 && table_.in_extent[first] != 0 && table_.fault[first] < 0) {
-                flood(first, component);
+            if (component[first] >= 0 || table_.in_extent[first] == 0 || table_.fault[first] >= 0) {
+                continue;
+            }
+            const std::vector<std::uint32_t> cells = flood(first, component);
+            if (!is_pocket(cells)) {
                 ++table_.region_count;
+                continue;
+            }
+            for (const std::uint32_t cell : cells) {
+                component[cell] = -1;
+                table_.fault[cell] = model_.vertices[mesh_.cells[cell][0]].owner;
+                table_.reason[cell] = Reason::fault_gap;
             }
         }
         for (std::size_t c = 0; c < component.size(); ++c) {
@@ -107,21 +118,38 @@ class RegionLabels {
     }
 
   private:
-    void flood(std::uint32_t first, std::vector<std::int32_t>& component) {
-        std::vector<std::uint32_t> stack{first};
+    std::vector<std::uint32_t> flood(std::uint32_t first, std::vector<std::int32_t>& component) {
+        std::vector<std::uint32_t> cells{first};
         component[first] = table_.region_count;
-        while (!stack.empty()) {
-            const std::uint32_t cell = stack.back();
-            stack.pop_back();
+        for (std::size_t i = 0; i < cells.size(); ++i) {
             for (std::size_t k = 0; k < 4; ++k) {
-                const std::int32_t next = mesh_.neighbours[cell][k];
+                const std::int32_t next = mesh_.neighbours[cells[i]][k];
                 const auto neighbour = static_cast<std::uint32_t>(next);
-                if (next >= 0 && component[neighbour] < 0 && table_.fault[neighbour] < 0 && open(cell, k)) {
+                if (next >= 0 && component[neighbour] < 0 && table_.fault[neighbour] < 0 &&
+                    table_.above[neighbour] == 0 && open(cells[i], k)) {
                     component[neighbour] = table_.region_count;
-                    stack.push_back(neighbour);
+                    cells.push_back(neighbour);
                 }
             }
         }
+        return cells;
+    }
+
+    /// A few cells between seeds alone, shut in by gaps where faults meet: no block, but of the gaps.
+    [[nodiscard]] bool is_pocket(const std::vector<std::uint32_t>& cells) const {
+        double volume = 0;
+        double spacing = 0;
+        for (const std::uint32_t cell : cells) {
+            for (const std::uint32_t v : mesh_.cells[cell]) {
+                const Vertex& vertex = model_.vertices[v];
+                if (vertex.role != Role::seed) {
+                    return false;
+                }
+                spacing = std::max(spacing, model_.faults[static_cast<std::size_t>(vertex.owner)].spacing);
+            }
+            volume += cell_quality(corners(mesh_, mesh_.cells[cell])).volume;
+        }
+        return volume < spacing * spacing * spacing;
     }
 
     [[nodiscard]] bool open(std::uint32_t cell, std::size_t k) const {
@@ -130,11 +158,39 @@ class RegionLabels {
                                                  mesh_.points[v[(k + 3) % 4]]});
     }
 
+    const Model& model_;
     const Box3& extent_;
     bool all_inside_;
     const TetMesh& mesh_;
     CellTable& table_;
 };
+
+/// The region of the cell that holds a point; of one without, as its centroid is beyond the extent, that of the nearest
+/// cells that it hangs together with. −1 for a point in a gap or outside.
+std::int32_t region_at(const Vec3& p, MeshWalk& walk, const TetMesh& mesh, const CellTable& table) {
+    const auto position = walk.locate(p);
+    std::vector<std::uint32_t> open;
+    std::set<std::uint32_t> seen;
+    const auto reach = [&](std::uint32_t cell) {
+        if (table.fault[cell] < 0 && table.above[cell] == 0 && seen.insert(cell).second) {
+            open.push_back(cell);
+        }
+    };
+    if (position) {
+        reach(position->cell);
+    }
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        if (table.region[open[i]] >= 0) {
+            return table.region[open[i]];
+        }
+        for (const std::int32_t next : mesh.neighbours[open[i]]) {
+            if (next >= 0) {
+                reach(static_cast<std::uint32_t>(next));
+            }
+        }
+    }
+    return -1;
+}
 
 void name_regions(const Model& model, const TetMesh& mesh, CellTable& table) {
     for (std::int32_t region = 0; region < table.region_count; ++region) {
@@ -142,8 +198,7 @@ void name_regions(const Model& model, const TetMesh& mesh, CellTable& table) {
     }
     MeshWalk walk(mesh);
     for (const RegionName& named : model.region_names) {
-        const auto position = walk.locate(named.point);
-        const std::int32_t region = position ? table.region[position->cell] : -1;
+        const std::int32_t region = region_at(named.point, walk, mesh, table);
         if (region >= 0) {
             table.region_name[static_cast<std::size_t>(region)] = named.name;
         }
@@ -171,16 +226,18 @@ bool overlap(const Box3& box, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices) {
-    const Vertex& first = vertices[cell[0]];
-    bool both_sides = false;
+    const std::int32_t owner = vertices[cell[0]].owner;
+    bool plus = false;
+    bool minus = false;
     for (const std::uint32_t v : cell) {
         const Vertex& vertex = vertices[v];
-        if (vertex.role != Role::seed || vertex.owner != first.owner) {
+        if (vertex.role != Role::seed || vertex.owner != owner) {
             return -1;
         }
-        both_sides = both_sides || vertex.side != first.side;
+        plus = plus || vertex.side > 0;
+        minus = minus || vertex.side < 0;
     }
-    return both_sides ? first.owner : -1;
+    return plus && minus ? owner : -1;
 }
 
 namespace {
@@ -210,24 +267,31 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
     table.region.assign(n, -1);
     table.fault.resize(n);
     table.in_extent.resize(n);
+    table.above.resize(n);
     table.reason.resize(n);
     table.radius_edge.resize(n);
     table.aspect.resize(n);
     table.dihedral_min_deg.resize(n);
     Explainer explain(model, mesh);
     const FaultProximity faults(model.faults);
+    const auto is_topography = [&](std::int32_t f) {
+        return model.faults[static_cast<std::size_t>(f)].sheet.kind == SurfaceKind::topography;
+    };
     for (std::size_t c = 0; c < n; ++c) {
         const CellPoints points = corners(mesh, mesh.cells[c]);
         const CellQuality quality = cell_quality(points);
         table.radius_edge[c] = static_cast<float>(quality.radius_edge);
         table.aspect[c] = static_cast<float>(quality.aspect);
         table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
-        table.in_extent[c] = model.domain.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3]));
         table.fault[c] = gap_fault(mesh.cells[c], model.vertices);
         if (table.fault[c] < 0) {
             table.fault[c] = gap_at_junction(mesh.cells[c], model, mesh, faults);
         }
         table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
+        const Vec3 centroid = 0.25 * (points[0] + points[1] + points[2] + points[3]);
+        table.above[c] =
+            (table.fault[c] >= 0 && is_topography(table.fault[c])) || is_above_ground(faults, centroid) ? 1 : 0;
+        table.in_extent[c] = table.above[c] == 0 && model.domain.extent.contains(centroid);
     }
     RegionLabels(model, mesh, table).run();
     name_regions(model, mesh, table);

@@ -19,10 +19,11 @@ namespace {
 using Corner = CollapseImage::Corner;
 using Cell = CollapseImage::Cell;
 
-constexpr double on_sheet = 0.1;  ///< a facet's centre may be this far from the sheet, over its longest edge
+constexpr double on_surface = 1e-3;  ///< a place may be this far from a surface it is on, over the spacing
+constexpr double on_sheet = 0.1;     ///< a facet's centre may be this far from the sheet, over its longest edge
 
 /// Where seeds are to meet: each mirrored pair halfway between its seeds; pairs about a junction's point in that point.
-std::vector<FaultNode> fault_nodes(const Model& model) {
+std::vector<FaultNode> fault_nodes(const Model& model, const std::vector<char>& selected) {
     std::map<std::pair<std::int32_t, Vec3>, std::uint32_t> vertex_at;
     for (std::uint32_t v = 0; v < model.vertices.size(); ++v) {
         if (model.vertices[v].role == Role::seed) {
@@ -31,7 +32,8 @@ std::vector<FaultNode> fault_nodes(const Model& model) {
     }
     std::map<Vec3, std::set<std::size_t>> sheets_at;
     for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        for (const Vec3& p : model.faults[f].sheet.vertices) {
+        for (std::size_t v = 0; selected[f] != 0 && v < model.faults[f].sheet.vertices.size(); ++v) {
+            const Vec3& p = model.faults[f].sheet.vertices[v];
             sheets_at[p].insert(f);
         }
     }
@@ -41,7 +43,7 @@ std::vector<FaultNode> fault_nodes(const Model& model) {
     std::map<Vec3, std::size_t> node_at;  // by base
     for (std::size_t f = 0; f < model.faults.size(); ++f) {
         const Fault& fault = model.faults[f];
-        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
+        for (std::size_t k = 0; selected[f] != 0 && k + 1 < fault.seeds.size(); k += 2) {
             const auto plus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k].position});
             const auto minus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k + 1].position});
             if (plus == vertex_at.end() || minus == vertex_at.end()) {
@@ -126,11 +128,44 @@ double area(const std::vector<Vec3>& polygon) {
     return 0.5 * length(sum);
 }
 
+/// What is known of the image's cells before nodes are split: columns of the cell table to be.
+struct CellStates {
+    std::vector<std::int32_t> fault;      ///< whose gap it fills, of those that keep theirs
+    std::vector<std::uint8_t> above;      ///< the topography
+    std::vector<std::uint8_t> in_extent;  ///< and not above
+    std::vector<std::int32_t> region;     ///< as before
+};
+
+CellStates cell_states(const Model& model, const CellTable& before, const std::vector<char>& selected,
+                       const CollapseImage& image) {
+    CellStates states;
+    for (const Cell& cell : image.cells()) {
+        Vec3 sum;
+        for (const Corner& corner : cell.corners) {
+            sum = sum + image.position(corner.node);
+        }
+        const std::int32_t gap = before.fault[cell.parent];
+        const bool collapsed = gap >= 0 && selected[static_cast<std::size_t>(gap)] != 0;
+        states.fault.push_back(collapsed ? -1 : gap);
+        states.above.push_back(collapsed ? 0 : before.above[cell.parent]);  // what is left of a gap is on the − side
+        states.in_extent.push_back(states.above.back() == 0 && model.domain.extent.contains(0.25 * sum) ? 1 : 0);
+        states.region.push_back(before.region[cell.parent]);
+    }
+    return states;
+}
+
 /// Which facets of the image are the faults, and the nodes split along them.
 class NodeSplitter {
   public:
-    NodeSplitter(const Model& model, const CollapseImage& image, const std::vector<FaultNode>& nodes)
-        : model_(model), image_(image), nodes_(nodes), proximity_(model.faults) {
+    NodeSplitter(const Model& model, const std::vector<char>& selected, const CollapseImage& image,
+                 const std::vector<FaultNode>& nodes, const CellStates& states)
+        : model_(model),
+          selected_(selected),
+          image_(image),
+          nodes_(nodes),
+          states_(states),
+          proximity_(model.faults),
+          region_(states.region) {
         for (const Cell& cell : image.cells()) {
             cells_.push_back({cell.corners[0].node, cell.corners[1].node, cell.corners[2].node, cell.corners[3].node});
         }
@@ -170,10 +205,13 @@ class NodeSplitter {
                 cut(c, k, touched);
             }
         });
+        spread_regions();
+        part_regions(touched);
         split(touched);
     }
 
     [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+    [[nodiscard]] const std::vector<std::int32_t>& regions() const { return region_; }
     [[nodiscard]] std::size_t split_places() const { return split_places_; }
     [[nodiscard]] double split_area() const { return split_area_; }
 
@@ -195,15 +233,28 @@ class NodeSplitter {
                                         neighbours_[from].begin());
     }
 
+    /// Whose surface a node is on: its seeds' own, and others that run through its place. Where the margin of one fault
+    /// meets another fault there is no junction that they share.
     void find_faults_at_nodes() {
         faults_at_.resize(image_.node_count());
         base_.resize(image_.node_count());
+        std::vector<Box3> boxes;
+        for (const Fault& fault : model_.faults) {
+            boxes.push_back(bounding_box(fault.sheet.vertices).grown(on_surface * fault.spacing));
+        }
         for (std::uint32_t n = 0; n < image_.node_count(); ++n) {
             const auto at = image_.fault_nodes_at(n);
             base_[n] = at.size() == 1 ? nodes_[at[0]].base : image_.position(n);
             for (const std::uint32_t node : at) {
                 for (const std::uint32_t seed : nodes_[node].seeds) {
                     faults_at_[n].push_back(model_.vertices[seed].owner);
+                }
+            }
+            for (std::size_t f = 0; f < boxes.size() && !at.empty(); ++f) {
+                const auto fault = static_cast<std::int32_t>(f);
+                if (selected_[f] != 0 && boxes[f].contains(base_[n]) &&
+                    proximity_.distance_to_sheet(fault, base_[n]) <= on_surface * model_.faults[f].spacing) {
+                    faults_at_[n].push_back(fault);
                 }
             }
             std::ranges::sort(faults_at_[n]);
@@ -217,16 +268,17 @@ class NodeSplitter {
         int result = 0;
         for (const Corner& corner : image_.cells()[c].corners) {
             for (const std::uint32_t v : image_.vertices_behind(corner.origin)) {
-                if (model_.vertices[v].role == Role::seed && model_.vertices[v].owner == fault) {
-                    result = model_.vertices[v].side < 0 ? -1 : result == 0 ? 1 : result;
+                const Vertex& vertex = model_.vertices[v];
+                if (vertex.role == Role::seed && vertex.owner == fault && vertex.side != 0) {
+                    result = vertex.side < 0 ? -1 : result == 0 ? 1 : result;
                 }
             }
         }
         return result;
     }
 
-    /// Calls visit(cell, facet, fault) for each facet, once, between the two sides of a fault: on its sheet, or on the
-    /// margin.
+    /// Calls visit(cell, facet, fault) for each facet with its corners on a fault's surface, once, that is not between
+    /// cells of the same side: on the sheet, or on the margin.
     template <class Visit>
     void for_each_divider(Visit&& visit) const {
         for (std::uint32_t c = 0; c < cells_.size(); ++c) {
@@ -239,7 +291,7 @@ class NodeSplitter {
                 for (const std::int32_t fault : faults_at_[v[o[0]]]) {
                     if (std::ranges::binary_search(faults_at_[v[o[1]]], fault) &&
                         std::ranges::binary_search(faults_at_[v[o[2]]], fault) &&
-                        side(c, fault) * side(static_cast<std::uint32_t>(neighbours_[c][k]), fault) < 0) {
+                        side(c, fault) * side(static_cast<std::uint32_t>(neighbours_[c][k]), fault) <= 0) {
                         visit(c, k, fault);
                     }
                 }
@@ -275,12 +327,66 @@ class NodeSplitter {
         return proximity_.distance_to_sheet(fault, middle) <= on_sheet * longest;
     }
 
-    [[nodiscard]] bool in_extent(std::size_t c) const {
-        Vec3 sum;
-        for (const std::uint32_t node : cells_[c]) {
-            sum = sum + image_.position(node);
+    [[nodiscard]] bool in_extent(std::size_t c) const { return states_.in_extent[c] != 0; }
+
+    /// Cells within the extent keep their region. Those that had none, of a gap or from beyond the extent, take that of
+    /// the nearest cells they hang together with. Where faults meet, some of a gap may hang together with none: they
+    /// join a neighbour.
+    void spread_regions() {
+        std::vector<std::uint32_t> open;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            if (region_[c] >= 0) {
+                open.push_back(c);
+            }
         }
-        return model_.domain.extent.contains(0.25 * sum);
+        spread_from(open);
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            for (std::size_t k = 0; k < 4 && lacks_region(c); ++k) {
+                const std::int32_t beyond = neighbours_[c][k];
+                if (in_extent(c) && beyond >= 0 && region_[static_cast<std::size_t>(beyond)] >= 0) {
+                    const auto neighbour = static_cast<std::uint32_t>(beyond);
+                    region_[c] = region_[neighbour];
+                    cut_[c][k] = cut_[neighbour][facet_towards(neighbour, c)] = false;
+                    open.assign(1, c);
+                    spread_from(open);
+                }
+            }
+        }
+        for (std::size_t c = 0; c < cells_.size(); ++c) {
+            region_[c] = in_extent(c) ? region_[c] : -1;
+        }
+    }
+
+    [[nodiscard]] bool lacks_region(std::size_t c) const {
+        return region_[c] < 0 && states_.fault[c] < 0 && states_.above[c] == 0;
+    }
+
+    void spread_from(std::vector<std::uint32_t>& open) {
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::int32_t next = neighbours_[open[i]][k];
+                if (next >= 0 && !cut_[open[i]][k] && lacks_region(static_cast<std::size_t>(next))) {
+                    region_[static_cast<std::size_t>(next)] = region_[open[i]];
+                    open.push_back(static_cast<std::uint32_t>(next));
+                }
+            }
+        }
+    }
+
+    /// Regions meet at split facets alone, also where these are a little off the surface: where the margin of one fault
+    /// runs through another, and no cell's facets follow the latter.
+    void part_regions(std::vector<char>& touched) {
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::int32_t next = neighbours_[c][k];
+                if (next > static_cast<std::int32_t>(c) && !cut_[c][k] && region_[c] >= 0 &&
+                    region_[static_cast<std::size_t>(next)] >= 0 &&
+                    region_[c] != region_[static_cast<std::size_t>(next)]) {
+                    cut(c, k, touched);
+                    split_area_ += area(inside_extent(c, k));
+                }
+            }
+        }
     }
 
     void split(const std::vector<char>& touched) {
@@ -352,9 +458,12 @@ class NodeSplitter {
     }
 
     const Model& model_;
+    const std::vector<char>& selected_;
     const CollapseImage& image_;
     const std::vector<FaultNode>& nodes_;
+    const CellStates& states_;
     FaultProximity proximity_;
+    std::vector<std::int32_t> region_;
     std::vector<std::array<std::uint32_t, 4>> cells_;  ///< over the image's nodes, then over parts
     std::vector<std::array<std::int32_t, 4>> neighbours_;
     std::vector<std::array<bool, 4>> cut_;  ///< by cell and facet: is it a fault's?
@@ -415,66 +524,106 @@ void fill_vertices(const Model& model, const CollapseImage& image, const std::ve
     }
 }
 
-/// Cells within the extent keep their region. Those that had none, of a gap or from beyond the extent, take that of the
-/// nearest cells they hang together with.
-void label_regions(const std::vector<std::int32_t>& before, const TetMesh& mesh, CellTable& table) {
-    table.region = before;
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t c = 0; c < before.size(); ++c) {
-        if (before[c] >= 0) {
-            open.push_back(c);
-        }
-    }
-    for (std::size_t i = 0; i < open.size(); ++i) {
-        for (const std::int32_t next : mesh.neighbours[open[i]]) {
-            if (next >= 0 && table.region[static_cast<std::size_t>(next)] < 0) {
-                table.region[static_cast<std::size_t>(next)] = table.region[open[i]];
-                open.push_back(static_cast<std::uint32_t>(next));
-            }
-        }
-    }
-    for (std::size_t c = 0; c < before.size(); ++c) {
-        table.region[c] = table.in_extent[c] != 0 ? table.region[c] : -1;
-    }
-}
-
-void fill_cells(const CellTable& before, const CollapseImage& image, CollapsedModel& result) {
+void fill_cells(const CellTable& before, const CollapseImage& image, CellStates states, CollapsedModel& result) {
     CellTable& table = result.cells;
     const TetMesh& mesh = result.mesh;
-    const std::size_t n = mesh.cells.size();
-    table.fault.assign(n, -1);
-    std::vector<std::int32_t> region_before;
-    for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
         const auto& v = mesh.cells[c];
-        const CellPoints points{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
-        const CellQuality quality = cell_quality(points);
-        const std::uint32_t parent = image.cells()[c].parent;
-        table.in_extent.push_back(
-            result.model.domain.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3])) ? 1 : 0);
-        table.reason.push_back(before.reason[parent]);
+        const CellQuality quality =
+            cell_quality({mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
+        table.reason.push_back(before.reason[image.cells()[c].parent]);
         table.radius_edge.push_back(static_cast<float>(quality.radius_edge));
         table.aspect.push_back(static_cast<float>(quality.aspect));
         table.dihedral_min_deg.push_back(static_cast<float>(quality.dihedral_min_deg));
-        region_before.push_back(before.region[parent]);
     }
+    table.fault = std::move(states.fault);
+    table.above = std::move(states.above);
+    table.in_extent = std::move(states.in_extent);
     table.region_count = before.region_count;
     table.region_name = before.region_name;
-    label_regions(region_before, mesh, table);
+}
+
+template <class T>
+void keep(std::vector<T>& column, const std::vector<char>& kept) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        if (kept[i] != 0) {
+            column[next++] = column[i];
+        }
+    }
+    column.resize(next);
+}
+
+/// The cells above the topography, and the nodes that only they have, are taken out.
+void drop_above(CollapsedModel& result) {
+    CellTable& table = result.cells;
+    TetMesh& mesh = result.mesh;
+    std::vector<char> kept_cell;
+    std::vector<std::int32_t> cell_number;
+    std::vector<char> kept_node(mesh.points.size(), 0);
+    std::int32_t cells = 0;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        kept_cell.push_back(table.above[c] == 0 ? 1 : 0);
+        cell_number.push_back(table.above[c] == 0 ? cells++ : -1);
+        for (const std::uint32_t node : mesh.cells[c]) {
+            kept_node[node] = kept_node[node] != 0 || table.above[c] == 0 ? 1 : 0;
+        }
+    }
+    std::vector<std::uint32_t> node_number;
+    std::uint32_t nodes = 0;
+    for (const char kept : kept_node) {
+        node_number.push_back(nodes);
+        nodes += kept != 0 ? 1 : 0;
+    }
+    keep(mesh.points, kept_node);
+    keep(result.model.vertices, kept_node);
+    for (std::vector<double>& values : result.model.vertex_values.values) {
+        keep(values, kept_node);
+    }
+    keep(result.model.vertex_values.extrapolation, kept_node);
+    keep(mesh.cells, kept_cell);
+    keep(mesh.neighbours, kept_cell);
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            mesh.cells[c][k] = node_number[mesh.cells[c][k]];
+            const std::int32_t beyond = mesh.neighbours[c][k];
+            mesh.neighbours[c][k] = beyond < 0 ? -1 : cell_number[static_cast<std::size_t>(beyond)];
+        }
+    }
+    keep(table.region, kept_cell);
+    keep(table.fault, kept_cell);
+    keep(table.in_extent, kept_cell);
+    keep(table.reason, kept_cell);
+    keep(table.radius_edge, kept_cell);
+    keep(table.aspect, kept_cell);
+    keep(table.dihedral_min_deg, kept_cell);
+    keep(table.above, kept_cell);
 }
 
 }  // namespace
 
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells) {
-    std::vector<FaultNode> nodes = fault_nodes(model);
+bool has_ground(const Model& model) {
+    return std::ranges::any_of(model.faults,
+                               [](const Fault& fault) { return fault.sheet.kind == SurfaceKind::topography; });
+}
+
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
+    std::vector<char> selected;
+    for (const Fault& fault : model.faults) {
+        selected.push_back(which == Collapsing::all || fault.sheet.kind == SurfaceKind::topography ? 1 : 0);
+    }
+    std::vector<FaultNode> nodes = fault_nodes(model, selected);
     const CollapseImage image = collapsed_image(mesh, nodes);
-    NodeSplitter splitter(model, image, nodes);
+    CellStates states = cell_states(model, cells, selected, image);
+    NodeSplitter splitter(model, selected, image, nodes, states);
     splitter.run();
 
     CollapsedModel result{model, {}, {}, {}};
     fill_vertices(model, image, splitter.parts(), result);
     result.mesh.cells = splitter.cells();
     result.mesh.neighbours = splitter.neighbours();
-    fill_cells(cells, image, result);
+    result.cells.region = splitter.regions();
+    fill_cells(cells, image, std::move(states), result);
 
     CollapseReport& report = result.report;
     report.dropped_cells =
@@ -493,10 +642,11 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
             (node.state == FaultNode::State::apart ? report.apart : report.aside).push_back(node.base);
         }
     }
-    for (const Fault& fault : model.faults) {
-        report.sheet_area += statistics(fault.sheet).area;
+    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        report.sheet_area += selected[f] != 0 ? statistics(model.faults[f].sheet).area : 0;
     }
     report.conformity = check_conformity(result.mesh, result.cells.region, model.domain.hull);
+    drop_above(result);
     return result;
 }
 

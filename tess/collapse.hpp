@@ -32,7 +32,7 @@ struct CollapseReport {
     double sheet_area = 0;          ///< of the faults themselves: as much, but for bends, unless a fault has holes now
     std::vector<Vec3> apart;  ///< places on the faults where the sheets could not meet: thin cells stay on the − side
     std::vector<Vec3> aside;  ///< places where, besides, the facets stay off the surface by half the fault's width
-    Conformity conformity;
+    Conformity conformity;    ///< with what lies above the topography
 };
 
 /// A model's mesh with its faults collapsed, in the shape that writers take.
@@ -41,11 +41,22 @@ struct CollapsedModel {
                    ///< other, their ids unique but not ascending. A node on one side carries its seed's id, owner, side
                    ///< and values; one on a rim has side 0 and the mean of its seeds' values
     TetMesh mesh;  ///< split facets have no neighbour
-    CellTable cells;  ///< fault is −1 everywhere; regions are the same, and have the cells of the gaps as well
+    CellTable
+        cells;  ///< fault is −1 where it was collapsed; regions are the same, and have the cells of the gaps as well
     CollapseReport report;
 };
 
-/// `mesh` and `cells` are the model's own. O(n log n); as many passes as there are rounds of giving up, few.
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells);
+enum class Collapsing {
+    ground,  ///< the topography alone, at which every output ends; faults and horizons keep their gaps
+    all,
+};
+
+/// What lies above the topography is not in the result. `mesh` and `cells` are the model's own. O(n log n); as many
+/// passes as there are rounds of giving up, few.
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
+                               Collapsing which = Collapsing::all);
+
+/// Is there a topography to end at?
+bool has_ground(const Model& model);
 
 }  // namespace terratet

@@ -73,6 +73,7 @@ struct FaultOptions {
 struct FaultAccount {
     std::string name;
     std::string file;
+    SurfaceKind kind = SurfaceKind::fault;
     bool used = false;
     std::string reason;     ///< why refused, unused or used in part; empty when used whole
     std::size_t parts = 0;  ///< connected sheets after repair

@@ -205,7 +205,7 @@ void weld(FaultMesh& mesh) {
 }
 
 Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
-    Surface result{source.name, SurfaceKind::fault, mesh.points, mesh.triangles, source.file};
+    Surface result{source.name, source.kind, mesh.points, mesh.triangles, source.file};
     for (Vec3& p : result.vertices) {
         p = frame.snapped(p);
     }
@@ -249,9 +249,6 @@ void FaultPreparer::repair() {
     double done = 0;
     for (const Surface& surface : surfaces_) {
         report_progress(progress_, "repairing faults", done++ / static_cast<double>(surfaces_.size()));
-        if (surface.kind != SurfaceKind::fault) {
-            continue;
-        }
         Candidate candidate;
         candidate.surface = &surface;
         candidate.repaired = repair_fault(surface, 1e-9 * std::max(extent_.diagonal(), 1e-3));
@@ -268,6 +265,7 @@ void FaultPreparer::repair() {
 void FaultPreparer::screen(Candidate& candidate) {
     FaultAccount& account = candidate.account;
     account.name = candidate.surface->name;
+    account.kind = candidate.surface->kind;
     account.file = candidate.surface->file;
     account.parts = candidate.repaired.parts.size();
     account.dropped_triangles = candidate.repaired.dropped;

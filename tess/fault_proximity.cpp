@@ -84,7 +84,8 @@ bool FaultProximity::crosses(std::int32_t fault, const Vec3& a, const Vec3& b) c
 
 bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except) const {
     for (std::size_t f = 0; f < impl_->sheets.size(); ++f) {
-        if (static_cast<std::int32_t>(f) != except && impl_->sheets[f].meets(a, b)) {
+        const bool bars = impl_->faults[f].sheet.kind == SurfaceKind::fault;
+        if (bars && static_cast<std::int32_t>(f) != except && impl_->sheets[f].meets(a, b)) {
             return true;
         }
     }
@@ -107,6 +108,17 @@ std::int8_t FaultProximity::side_of(std::int32_t fault, const Vec3& p) const {
 double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {
     assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
     return impl_->sheets[static_cast<std::size_t>(fault)].distance_to(p);
+}
+
+bool is_above_ground(const FaultProximity& faults, const Vec3& p) {
+    for (std::size_t f = 0; f < faults.faults().size(); ++f) {
+        const Surface& sheet = faults.faults()[f].sheet;
+        if (sheet.kind == SurfaceKind::topography && !sheet.triangles.empty() &&
+            faults.side_of(static_cast<std::int32_t>(f), p) > 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace terratet

@@ -32,7 +32,8 @@ class FaultProximity {
     /// Does the closed segment meet fault f's sheet? Exact predicates. O(log n).
     [[nodiscard]] bool crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const;
 
-    /// Does it meet any fault's sheet, but for `except` (−1: all count)?
+    /// Does it meet any sheet that bars estimation, a fault's and not a horizon's or the topography's, but for `except`
+    /// (−1: all count)?
     [[nodiscard]] bool crosses_any(const Vec3& a, const Vec3& b, std::int32_t except = -1) const;
 
     /// How freely a sees b: 0 where the closed segment meets a sheet, else the distance at which it passes the nearest
@@ -55,5 +56,8 @@ class FaultProximity {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Above any topography among the surfaces?
+bool is_above_ground(const FaultProximity& faults, const Vec3& p);
 
 }  // namespace terratet

@@ -35,6 +35,9 @@ std::map<EdgePlace, int> uses_of_edges(std::span<const Fault> faults) {
 FaultRims::FaultRims(std::span<const Fault> faults) {
     std::map<EdgePlace, int> uses = uses_of_edges(faults);
     for (const Fault& fault : faults) {
+        if (fault.sheet.kind != SurfaceKind::fault) {
+            continue;  // no barrier
+        }
         for (const Triangle& t : fault.sheet.triangles) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3& a = fault.sheet.vertices[t[i]];

@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace terratet {
+
+const char* to_string(SurfaceKind kind) {
+    constexpr const char* names[] = {"fault", "horizon", "topography"};
+    return names[static_cast<std::size_t>(kind)];
+}
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;

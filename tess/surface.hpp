@@ -12,7 +12,11 @@
 
 namespace terratet {
 
+/// All kinds part regions. A fault bars estimation as well; topography has nothing above.
 enum class SurfaceKind { fault, horizon, topography };
+
+/// "fault", "horizon", "topography".
+const char* to_string(SurfaceKind kind);
 
 struct Surface {
     std::string name;

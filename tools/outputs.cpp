@@ -5,6 +5,7 @@
 #include <charconv>
 #include <ctime>
 #include <filesystem>
+#include <map>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -43,15 +44,15 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 /// Throws Error when the result fails its check.
-CollapsedModel collapse_checked(const Model& model, const Meshed& meshed) {
-    CollapsedModel result = collapse_faults(model, meshed.mesh, meshed.cells);
+CollapsedModel collapse_checked(const Model& model, const Meshed& meshed, Collapsing which) {
+    CollapsedModel result = collapse_faults(model, meshed.mesh, meshed.cells, which);
     const Conformity& c = result.report.conformity;
     if (!c.proper()) {
         const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
         throw Error(
             fmt::format("--fault-gap collapse: the mesh fails its check, first at ({:.1f}, {:.1f}, {:.1f}): {} "
                         "cells turned inside out, {} facets without their twin, {} overlapping; volume off by "
-                        "{:.2g}; please report this, and use --fault-gap keep",
+                        "{:.2g}; please report this",
                         where.x, where.y, where.z, c.not_positive, c.unmatched, c.overlapping, c.volume_error));
     }
     return result;
@@ -116,7 +117,7 @@ Written write_outputs(const Model& model, const Meshed* meshed, const std::vecto
     options.overwrite = run.overwrite;
     options.progress = progress;
     Written written;
-    std::optional<CollapsedModel> collapsed;
+    std::map<Collapsing, CollapsedModel> collapsed;
     for (const auto& path : paths) {
         try {
             report_progress(progress, "write",
@@ -126,16 +127,21 @@ Written write_outputs(const Model& model, const Meshed* meshed, const std::vecto
                 std::error_code no_file;
                 const auto bytes = fs::file_size(path, no_file);
                 written.outputs.push_back({path, no_file ? 0 : bytes});
-            } else if (!model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format))) {
-                if (!collapsed) {
-                    collapsed = collapse_checked(model, *meshed);
-                    written.collapse = collapsed->report;
-                }
-                written.outputs.push_back(
-                    export_model({collapsed->model, collapsed->mesh, collapsed->cells}, path, options));
-            } else {
-                written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
+                continue;
             }
+            const bool all =
+                !model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format));
+            if (!all && !has_ground(model)) {
+                written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
+                continue;
+            }
+            const Collapsing which = all ? Collapsing::all : Collapsing::ground;
+            if (!collapsed.contains(which)) {
+                collapsed.emplace(which, collapse_checked(model, *meshed, which));
+                written.collapse = all || !written.collapse ? collapsed.at(which).report : written.collapse;
+            }
+            const CollapsedModel& result = collapsed.at(which);
+            written.outputs.push_back(export_model({result.model, result.mesh, result.cells}, path, options));
         } catch (...) {
             rethrow_naming(written.outputs);
         }

@@ -50,6 +50,7 @@ Json faults_json(const std::vector<FaultAccount>& accounts) {
     Json faults = Json::array();
     for (const auto& account : accounts) {
         faults.push_back({{"name", account.name},
+                          {"kind", to_string(account.kind)},
                           {"file", account.file},
                           {"used", account.used},
                           {"reason", account.reason},
@@ -128,8 +129,10 @@ Json final_json(const RunRecord& record) {
 
 Json regions_json(const RunRecord& record) {
     Json list = Json::array();
-    const CellTable& cells = record.meshed->cells;
-    const auto volumes = region_volumes({*record.model, record.meshed->mesh, cells});
+    // Of the collapsed mesh: what is in a fault's gap belongs to the two sides.
+    const CollapsedModel collapsed = collapse_faults(*record.model, record.meshed->mesh, record.meshed->cells);
+    const CellTable& cells = collapsed.cells;
+    const auto volumes = region_volumes({collapsed.model, collapsed.mesh, cells});
     for (std::size_t region = 0; region < volumes.size(); ++region) {
         list.push_back({{"number", region}, {"name", cells.region_name[region]}, {"volume", volumes[region]}});
     }

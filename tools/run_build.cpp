@@ -16,7 +16,8 @@ namespace {
 
 std::vector<std::string> input_paths(const SiteArguments& site) {
     std::vector<std::string> paths;
-    for (const auto* list : {&site.boreholes, &site.surveys, &site.logs, &site.samples, &site.faults, &site.surfaces}) {
+    for (const auto* list :
+         {&site.boreholes, &site.surveys, &site.logs, &site.samples, &site.faults, &site.surfaces, &site.topography}) {
         paths.insert(paths.end(), list->begin(), list->end());
     }
     return paths;

@@ -84,7 +84,11 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
              {{"log"}, "FILE", "values along holes: hole, from, to (or depth), properties", &a.logs},
              {{"samples"}, "FILE", "loose points: x, y, z, properties", &a.samples},
              {{"faults"}, "FILE", "GOCAD TSurf, TIN or triangles, or points x, y, z, fault", &a.faults},
-             {{"surface"}, "FILE", "a horizon, kept with the model", &a.surfaces},
+             {{"surface"},
+              "FILE",
+              "a horizon, as a fault or a raster: it parts regions, and bars nothing",
+              &a.surfaces},
+             {{"topography"}, "FILE", "the ground, a raster mostly: nothing is modelled above it", &a.topography},
          }},
         {"What they mean",
          {
@@ -142,8 +146,9 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     add(a.samples, inputs.samples);
     add(a.faults, inputs.faults);
     add(a.surfaces, inputs.surfaces);
-    for (auto* sources :
-         {&inputs.boreholes, &inputs.surveys, &inputs.logs, &inputs.samples, &inputs.faults, &inputs.surfaces}) {
+    add(a.topography, inputs.topography);
+    for (auto* sources : {&inputs.boreholes, &inputs.surveys, &inputs.logs, &inputs.samples, &inputs.faults,
+                          &inputs.surfaces, &inputs.topography}) {
         for (auto& source : *sources) {
             all.push_back(&source);
         }

@@ -332,3 +332,25 @@ TEST_CASE("The check of a split mesh finds every fault that is put in") {
     region[static_cast<std::size_t>(inner)] = 1;
     CHECK(check_conformity(good.mesh, region, hull).leaking > 0);
 }
+
+TEST_CASE("Where faults meet, each wedge has a node of its own, and the blocks stay apart") {
+    const Surface crossing = testing::planar_fault("crossing", {150, 150, -100}, 70, 90, 500, 400, 15);
+    const Surface abutting = testing::rectangle("abutting", {250, 150, -100}, {100, 60, 0}, {0, 0, 200});
+    const Surface flat = testing::planar_fault("flat", {150, 150, -110}, 10, 20, 500, 400, 15);
+    const std::vector<std::pair<std::vector<Surface>, std::size_t>> cases{
+        {{plane(), abutting}, 3}, {{plane(), crossing}, 4}, {{plane(), crossing, flat}, 8}};
+    for (const auto& [faults, blocks] : cases) {
+        INFO(blocks << " blocks");
+        const Model model = model_with(faults);
+        REQUIRE(model.faults.size() == faults.size());
+        const CollapsedModel result = collapsed(model);
+        check(result);
+        CHECK(result.cells.region_count == static_cast<std::int32_t>(blocks));
+        CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(1e-3));
+        std::size_t most = 0;
+        for (const auto& [place, nodes] : nodes_by_place(result)) {
+            most = std::max(most, nodes.size());
+        }
+        CHECK(most >= blocks);
+    }
+}

@@ -12,8 +12,8 @@
 /// nothing either (R7). Vertices within l_min of the box stay, since cells near it may be untreated because of them.
 ///
 /// Once a sweep finds nothing and only few cells are left, more is tried for them: more places, their neighbours, and
-/// vertices that give way, alone or in pairs, to what insertion puts in their stead. For so few, cells that insertion
-/// cannot treat may become more.
+/// vertices that give way, alone, in pairs or in threes, to what insertion puts in their stead. For so few, cells that
+/// insertion cannot treat may become more.
 
 #include <optional>
 #include <set>

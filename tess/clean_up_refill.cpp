@@ -16,26 +16,34 @@ using delaunay::Cell;
 using delaunay::Facet;
 
 constexpr int refill_count = 8;
+constexpr int refill_count_of_three = 3;
 constexpr std::size_t refill_vertices = 12;  ///< more would be another tessellation
 
 }  // namespace
 
-/// Each vertex of the cell gives way to others, alone or with one of its neighbours.
+/// Each vertex of the cell gives way to others: alone, with one of its neighbours, or with two.
 bool CleanUp::refill_around(const Patient& patient) {
     for (const std::uint32_t vertex : patient.vertices) {
         if (!movable(vertex)) {
             continue;
         }
+        std::vector<std::uint32_t> others = neighbours({patient.severity, {vertex, vertex, vertex, vertex}});
+        std::erase_if(others, [&](std::uint32_t other) { return !movable(other); });
         std::vector<std::vector<std::uint32_t>> groups{{vertex}};
-        for (const std::uint32_t other : neighbours({patient.severity, {vertex, vertex, vertex, vertex}})) {
-            if (movable(other)) {
-                groups.push_back({vertex, other});
+        for (const std::uint32_t other : others) {
+            groups.push_back({vertex, other});
+        }
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            for (std::size_t j = i + 1; j < others.size(); ++j) {
+                groups.push_back({vertex, others[i], others[j]});
             }
         }
         for (const auto& group : groups) {
-            std::array<std::uint64_t, 2> seed{kernel_.vertices[group.front()].id, kernel_.vertices[group.back()].id};
+            std::array<std::uint64_t, 3> seed{};
+            std::ranges::transform(group, seed.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
             BallPoints ball(seed);
-            for (int i = 0; i < refill_count; ++i) {
+            const int tries = group.size() < 3 ? refill_count : refill_count_of_three;
+            for (int i = 0; i < tries; ++i) {
                 if (refill(group, i == 0 ? nullptr : &ball)) {
                     return true;
                 }

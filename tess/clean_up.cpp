@@ -50,7 +50,9 @@ CleanUpReport CleanUp::run() {
     }
     std::vector<Cell> cells;
     for (const Cell cell : kernel_.triangulation.finite_cell_handles()) {
-        cells.push_back(cell);
+        if (!clearly_above_limits(cell)) {  // a list of all would be a tenth of the memory
+            cells.push_back(cell);
+        }
     }
     std::vector<Patient> all = below_limits(cells);
     cells = {};

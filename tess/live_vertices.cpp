@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/live_vertices.hpp"
 
+#include <algorithm>
+
 #include "tess/error.hpp"
 
 namespace terratet {
+
+namespace {
+
+constexpr std::size_t batch_size = 1U << 15U;  ///< enough for any number of threads
+
+}  // namespace
 
 LiveVertices::LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source,
                            bool values_at_once, std::uint64_t max_vertices, double bound)
@@ -90,15 +98,25 @@ void LiveVertices::complete() {
     if (valued() == size()) {
         return;
     }
+    if (size() - valued() > batch_size) {  // exactly: growing by halves would cost more than the batches
+        for (auto& column : values_.values) {
+            column.reserve(size());
+        }
+        values_.extrapolation.reserve(size());
+    }
     std::vector<ValueQuery> queries;
-    for (std::size_t i = valued(); i < size(); ++i) {
-        queries.push_back({kernel_.vertices[i].position, -1, 0});
+    while (valued() < size()) {
+        queries.clear();
+        for (std::size_t i = valued(); i < std::min(size(), valued() + batch_size); ++i) {
+            queries.push_back({kernel_.vertices[i].position, -1, 0});
+        }
+        const ValueBatch batch = source_(queries);
+        for (std::size_t p = 0; p < values_.values.size(); ++p) {
+            values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
+        }
+        values_.extrapolation.insert(values_.extrapolation.end(), batch.extrapolation.begin(),
+                                     batch.extrapolation.end());
     }
-    const ValueBatch batch = source_(queries);
-    for (std::size_t p = 0; p < values_.values.size(); ++p) {
-        values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
-    }
-    values_.extrapolation.insert(values_.extrapolation.end(), batch.extrapolation.begin(), batch.extrapolation.end());
 }
 
 }  // namespace terratet

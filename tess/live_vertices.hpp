@@ -4,7 +4,7 @@
 /// \file
 /// The vertices of a tessellation under refinement, and their values. Private to this floor.
 ///
-/// Where criteria ask for values they are estimated as vertices come and move; otherwise all at the end, in one go.
+/// Where criteria ask for values they are estimated as vertices come and move; otherwise all at the end, in batches.
 
 #include "tess/delaunay.hpp"
 #include "tess/refine.hpp"

@@ -10,7 +10,7 @@ namespace terratet {
 
 namespace {
 
-constexpr std::size_t batch_size = 1U << 15U;  ///< enough for any number of threads
+constexpr std::size_t batch_size = 1U << 12U;  ///< enough for any number of threads
 
 }  // namespace
 

@@ -19,12 +19,11 @@
 ///
 /// Guarantees
 ///  F1  Within the extent, no edge of the tessellation crosses a fault unless both its ends are seeds: of that fault,
-///  or
-///      of one that meets it.
+///      or of one that meets it. Close to junctions of acute angle and on damaged surfaces a few may slip through:
+///      the report counts them, and verify() lists them with their places.
 ///  F2  FaultProximity::side_of is right everywhere; on certified triangles the nearest vertex tells the same.
 ///  F4  Nothing is changed, refused, trimmed or merged silently: every surface handed in is in the report, and the
-///  areas
-///      in its account add up: in = used + trimmed + outside + refused.
+///      areas in its account add up: in = used + trimmed + outside + refused.
 
 #include <cstdint>
 #include <string>

@@ -11,8 +11,7 @@
 ///  R2  Each cell outside the gaps meets every insertion criterion or carries a reason code.
 ///  R3  No inserted vertex is nearer than l_min to any other vertex.
 ///  R4  With l_max ≥ 4 l_min no edge exceeds l_max in cells that are not exempt as smooth and whose circumcentre lies
-///  in
-///      the extent and outside the faults' protection zones.
+///      in the extent and outside the faults' protection zones.
 ///  R5  The tessellation is Delaunay.
 ///  R6  The same input gives the same result, at any thread count and in any order of rows.
 ///  R7  Refining again inserts, moves and removes nothing.
@@ -57,7 +56,7 @@ struct RefineOptions {
 };
 
 struct RefineReport {
-    std::uint64_t inserted = 0;               ///< by rules 1 to 5, whatever became of them later
+    std::uint64_t inserted = 0;               ///< whatever became of them later; also by the clean-up
     std::uint64_t moved = 0;                  ///< moves by the clean-up
     std::uint64_t removed = 0;                ///< by the clean-up
     double bound = 0;                         ///< R1

@@ -35,7 +35,7 @@ InverseDistance::InverseDistance(std::vector<Vec3> sites, const FaultProximity* 
     : sites_(std::move(sites)), index_(sites_, faults, options.anisotropy, boreholes), options_(options) {}
 
 void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
-    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+    in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index_.neighbourhood(queries[i], options_.neighbourhood, near);

@@ -86,7 +86,7 @@ void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
         result.fallback = solved.fallback;
         result.variance = variance * solved.variance;
     };
-    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+    in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {
         Workspace work{KrigingSystem(options_.variogram, options_.drift), {}, {}, {}, {}, {}, {}};
         for (const std::uint32_t i : run) {
             estimate(queries[i], work, out[i]);

@@ -56,7 +56,7 @@ LinearInCells::LinearInCells(std::vector<Vec3> sites, const FaultProximity* faul
     : sites_(sites, faults, anisotropy) {}
 
 void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
-    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+    in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {
         std::int32_t start = run.empty() ? 0 : sites_.start_near(queries[run.front()].position);
         for (const std::uint32_t i : run) {
             estimate(queries[i].position, start, out[i]);

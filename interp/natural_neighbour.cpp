@@ -179,7 +179,7 @@ NaturalNeighbour::NaturalNeighbour(std::vector<Vec3> sites, const FaultProximity
 NaturalNeighbour::~NaturalNeighbour() = default;
 
 void NaturalNeighbour::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
-    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+    in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {
         thread_local Workspace work;
         std::int32_t start = run.empty() ? 0 : impl_->sites.start_near(queries[run.front()].position);
         for (const std::uint32_t i : run) {

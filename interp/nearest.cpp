@@ -10,7 +10,7 @@ Nearest::Nearest(std::vector<Vec3> sites, const FaultProximity* faults, const An
     : sites_(std::move(sites)), index_(sites_, faults, anisotropy) {}
 
 void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
-    in_spatial_order(queries, [&](std::span<const std::uint32_t> run) {
+    in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index_.nearest(queries[i], 1, near);

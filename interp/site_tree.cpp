@@ -43,6 +43,7 @@ std::uint32_t SiteTree::build(std::span<std::uint32_t> order, std::uint32_t begi
         node.borehole = same ? first : -1;
     }
     nodes_.push_back(node);
+    splits_.push_back({0, 0, 0});
     if (order.size() <= leaf_size) {
         return index;
     }
@@ -54,8 +55,10 @@ std::uint32_t SiteTree::build(std::span<std::uint32_t> order, std::uint32_t begi
                          return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis]
                                                                    : points[a] < points[b];
                      });
+    const double split = points[order[half]][axis];
     build(order.first(half), begin, points, boreholes);
     nodes_[index].right = build(order.subspan(half), begin + static_cast<std::uint32_t>(half), points, boreholes);
+    splits_[index] = {split, static_cast<std::uint32_t>(axis), nodes_[index].right};
     return index;
 }
 
@@ -139,36 +142,40 @@ class NearestPoints {
 
 }  // namespace
 
-void SiteTree::nearest(const Vec3& query, std::size_t count, double radius, std::vector<NearSite>& out) const {
-    NearestPoints found(points_, count, radius * radius, out);
+void SiteTree::nearest(const Vec3& query, std::size_t count, double squared_radius, std::vector<NearSite>& out) const {
+    NearestPoints found(points_, count, squared_radius, out);
     struct Branch {
         double squared_distance;
         std::uint32_t node;
     };
     std::array<Branch, 64> stack;  // as deep as the tree of 2^32 points, twice over
     std::size_t depth = 0;
-    stack[depth++] = {squared_distance_to(nodes_[0].box, query), 0};
+    stack[depth++] = {0, 0};
     while (depth > 0) {
         const Branch branch = stack[--depth];
-        std::uint32_t at = branch.node;
-        if (branch.squared_distance > found.worst()) {
+        if (branch.squared_distance > found.worst() ||
+            squared_distance_to(nodes_[branch.node].box, query) > found.worst()) {
             continue;
         }
-        while (nodes_[at].right != 0) {  // down the nearer side
-            Branch near{squared_distance_to(nodes_[at + 1].box, query), at + 1};
-            Branch far{squared_distance_to(nodes_[nodes_[at].right].box, query), nodes_[at].right};
-            if (far.squared_distance < near.squared_distance) {
-                std::swap(near, far);
-            }
-            if (far.squared_distance <= found.worst()) {
-                stack[depth++] = far;
-            }
-            at = near.node;
+        std::uint32_t at = branch.node;
+        while (splits_[at].right != 0) {  // down the nearer side
+            const Split& split = splits_[at];
+            const double gap = query[static_cast<int>(split.axis)] - split.value;
+            const bool is_left = gap < 0;
+            stack[depth] = {gap * gap, is_left ? split.right : at + 1};
+            depth += gap * gap <= found.worst() ? 1 : 0;
+            at = is_left ? at + 1 : split.right;
         }
+        std::array<NearSite, leaf_size> within;  // gathered without branches, which no processor could foretell
+        std::size_t count_within = 0;
         for (std::uint32_t point = nodes_[at].begin; point < nodes_[at].end; ++point) {
             const double d = squared_distance(points_[point], query);
-            if (d <= found.worst()) {
-                found.offer(d, point);
+            within[count_within] = {d, point};
+            count_within += d <= found.worst() ? 1 : 0;
+        }
+        for (std::size_t i = 0; i < count_within; ++i) {
+            if (within[i].squared_distance <= found.worst()) {
+                found.offer(within[i].squared_distance, within[i].site);
             }
         }
     }

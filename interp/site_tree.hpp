@@ -39,9 +39,9 @@ class SiteTree {
     /// \param boreholes  of each point, −1 for none; empty: none at all
     explicit SiteTree(std::span<const Vec3> points, std::span<const std::int32_t> boreholes = {});
 
-    /// The `count` nearest within `radius`, nearest first, ties by coordinates: the same places in any order of points.
+    /// The `count` nearest within a radius, nearest first, ties by coordinates: the same places in any order of points.
     /// O(count log n).
-    void nearest(const Vec3& query, std::size_t count, double radius, std::vector<NearSite>& out) const;
+    void nearest(const Vec3& query, std::size_t count, double squared_radius, std::vector<NearSite>& out) const;
 
     /// A neighbourhood of those points that `usable(index)` accepts, in the same order. The limits are tested first.
     template <class Usable>
@@ -59,6 +59,13 @@ class SiteTree {
         std::int32_t borehole;  ///< of all its points, or −1
     };
     static_assert(sizeof(Node) == 64);
+
+    /// The plane between an inner node's children: all a descent to the nearer one has to read.
+    struct Split {
+        double value;  ///< left: coordinates up to it; right: from it on
+        std::uint32_t axis;
+        std::uint32_t right;  ///< as the node's
+    };
 
     /// What is still to be looked at, by distance: nodes before points, points by coordinates.
     struct Candidate {
@@ -81,6 +88,7 @@ class SiteTree {
     }
 
     std::vector<Node> nodes_;
+    std::vector<Split> splits_;            ///< of each node
     std::vector<Vec3> points_;             ///< in leaf order
     std::vector<std::uint32_t> original_;  ///< the caller's number
     std::vector<std::int32_t> boreholes_;  ///< in leaf order; empty: none

@@ -63,7 +63,7 @@ void compare(const std::vector<Vec3>& sites, const std::vector<std::int32_t>& bo
             REQUIRE(found[k].squared_distance == squared_distance(sites[expected[k]], q));
         }
         limits.per_octant = limits.per_borehole = 0;
-        tree.nearest(q, limits.max_points, limits.radius, found);
+        tree.nearest(q, limits.max_points, limits.radius * limits.radius, found);
         const auto nearest = by_definition(sites, boreholes, q, limits);
         REQUIRE(found.size() == nearest.size());
         for (std::size_t k = 0; k < nearest.size(); ++k) {

@@ -17,7 +17,7 @@ void weigh(const std::vector<NearSite>& near, double power, std::vector<SiteWeig
         return;
     }
     double sum = 0;
-    for (const auto& [squared_distance, site] : near) {
+    for (const auto& [squared_distance, site, slot] : near) {
         const double ratio = nearest / squared_distance;
         const double weight = power == 2 ? ratio : std::pow(ratio, power / 2);
         terms.push_back({site, weight});

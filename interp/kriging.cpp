@@ -23,7 +23,7 @@ struct Workspace {
 
 void by_inverse_squares(const std::vector<NearSite>& near, std::vector<SiteWeight>& terms) {
     double sum = 0;
-    for (const auto& [squared_distance, site] : near) {
+    for (const auto& [squared_distance, site, slot] : near) {
         terms.push_back({site, near.front().squared_distance / squared_distance});
         sum += terms.back().weight;
     }

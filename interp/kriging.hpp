@@ -13,7 +13,7 @@
 /// solved with a nugget of 1e-8 of the variance or without the drift, at worst replaced by inverse squared distances;
 /// Weights::fallback says so. Weights are always finite and sum to 1.
 ///
-/// About 10 µs an estimate from 24 samples, 73 bytes a site (docs/benchmarks.md).
+/// About 10 µs an estimate from 24 samples, 65 bytes a site (docs/benchmarks.md).
 
 #include "interp/estimator.hpp"
 #include "interp/kriging_system.hpp"

@@ -61,7 +61,7 @@ void LocalError::pool(const FaultProximity* faults, std::size_t count) {
             index.nearest(places[i], count, near);
             double sum = 0;
             std::size_t known = 0;
-            for (const auto& [squared_distance, site] : near) {
+            for (const auto& [squared_distance, site, slot] : near) {
                 if (!std::isnan(own[site])) {
                     sum += own[site];
                     ++known;

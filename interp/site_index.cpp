@@ -37,15 +37,7 @@ void SiteIndex::nearest(const ValueQuery& query, std::size_t count, std::vector<
 void SiteIndex::neighbourhood(const ValueQuery& query, const Neighbourhood& limits, std::vector<NearSite>& out) const {
     const Vec3 place = metric_(query.position);
     if (!faults_ && limits.per_octant == 0 && limits.per_borehole == 0) {
-        double bound = limits.radius * limits.radius;
-        if (out.size() == limits.max_points) {  // none of those wanted is farther than what a query nearby found
-            double farthest = 0;
-            for (const NearSite& known : out) {
-                farthest = std::max(farthest, squared_distance(metric_(sites_[known.site]), place));
-            }
-            bound = std::min(bound, farthest);
-        }
-        tree_.nearest(place, limits.max_points, bound, out);
+        tree_.nearest(place, limits.max_points, limits.radius * limits.radius, out);
     } else {
         tree_.neighbourhood(
             place, limits, [&](std::uint32_t site) { return visible(query, site); }, out);

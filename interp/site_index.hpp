@@ -29,9 +29,8 @@ class SiteIndex {
     [[nodiscard]] bool visible(const ValueQuery& query, std::uint32_t site) const;
 
     /// The `count` nearest visible sites within `radius` into `out`, nearest first, ties by the sites' coordinates,
-    /// hence the same places in any order of sites. What `out` holds from a query of this index nearby bounds the search from its
-    /// start. O(count log n), but O(n log n) visibility tests where all sites are
-    /// hidden.
+    /// hence the same places in any order of sites. What `out` holds from a query of this index nearby bounds the
+    /// search from its start. O(count log n), but O(n log n) visibility tests where all sites are hidden.
     void nearest(const ValueQuery& query, std::size_t count, std::vector<NearSite>& out,
                  double radius = std::numeric_limits<double>::infinity()) const;
 

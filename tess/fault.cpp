@@ -50,11 +50,11 @@ FaultScale::FaultScale(const FaultOptions& options, double l_min)
       snap(options.snap > 0 ? options.snap : spacing / 20),
       protection(1.1 * std::sqrt(0.5 * spacing * spacing + 0.25 * width * width)),
       margin(1.15 * protection),
-      reach(protection + spacing) {}
+      reach(protection + spacing),
+      hull(reach + spacing) {}
 
 double hull_margin(const FaultOptions& options, double l_min) {
-    const FaultScale scale(options, l_min);
-    return scale.reach + scale.spacing;
+    return FaultScale(options, l_min).hull;
 }
 
 FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,

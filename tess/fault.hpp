@@ -19,8 +19,9 @@
 ///
 /// Guarantees
 ///  F1  Within the extent, no edge of the tessellation crosses a fault unless both its ends are seeds: of that fault,
-///      or of one that meets it. Close to junctions of acute angle and on damaged surfaces a few may slip through:
-///      the report counts them, and verify() lists them with their places.
+///      or of one that meets it. The seeds are tested for it, ball by ball of their own tessellation, and what is
+///      found is closed by more seeds or a wider margin (fault_leaks.hpp, fault_seal.hpp); a fault where that fails is
+///      refused.
 ///  F2  FaultProximity::side_of is right everywhere; on certified triangles the nearest vertex tells the same.
 ///  F4  Nothing is changed, refused, trimmed or merged silently: every surface handed in is in the report, and the
 ///      areas in its account add up: in = used + trimmed + outside + refused.
@@ -47,7 +48,8 @@ struct Seed {
 struct Fault {
     std::string name;
     Surface sheet;   ///< what F1 is promised for: the part within the extent, remeshed. Sheets that meet share points
-    Surface margin;  ///< skirt beyond the rims (and beyond the extent), covered by seeds as well; triangles may overlap
+    Surface margin;  ///< skirt beyond the rims (and beyond the extent), covered by seeds as well, and flakes off the
+                     ///< sheet about which r_p is kept clear too; triangles may overlap
     std::vector<Seed> seeds;       ///< mirrored: seeds 2k (+) and 2k+1 (−) stand over the same place
     double spacing = 0;            ///< s, the length of its triangles' edges where nothing asks for less
     double width = 0;              ///< ε, the distance between the two seeds of a pair in paired mode; smaller with s

@@ -48,6 +48,7 @@ class ExactSeeds {
         }
         add_rings(result.certified, points);
         result.certified = certify(collector_.places());
+        result.radius = radius_;
         set_radii(result);
         collector_.test_separation(result);
         result.seeds = collector_.take();

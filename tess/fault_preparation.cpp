@@ -234,7 +234,7 @@ FaultPreparation FaultPreparer::run() {
     cut();
     FaultPreparation result;
     while (std::ranges::any_of(candidates_, &Candidate::active)) {
-        if (const std::optional<Pass> pass = attempt()) {
+        if (std::optional<Pass> pass = attempt(); pass && seal(*pass)) {
             finish(*pass, result);
             break;
         }
@@ -625,6 +625,55 @@ std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const 
     return result;
 }
 
+bool FaultPreparer::seal(Pass& pass) {
+    report_progress(progress_, "sealing faults", 0);
+    std::vector<Fault> faults;
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
+        if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
+            faults.push_back(std::move(piece.fault));
+            numbers.push_back(k);
+        }
+    }
+    FaultSeal sealed = seal_faults(faults, extent_.grown(scale_.hull), frame_);
+    if (refuse_leaking(sealed.open, numbers)) {
+        return false;
+    }
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        pass.seeded.seeds[numbers[f]] = std::move(sealed.seeds[f]);
+        append(pass.skirts[numbers[f]], sealed.flakes[f]);
+    }
+    constexpr double reach = 1 + 1e-6;
+    for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {  // their balls have to stay as they were
+        if (pass.seeded.certified[t] != 0) {
+            pass.seeded.certified[t] = std::ranges::none_of(pass.complex.triangles[t], [&](std::uint32_t v) {
+                return std::ranges::any_of(sealed.changed, [&](const Vec3& p) {
+                    return distance(p, pass.complex.points[v]) < reach * pass.seeded.radius[v];
+                });
+            });
+        }
+    }
+    return true;
+}
+
+/// The smaller one of the two involved goes.
+bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
+                                   const std::vector<std::uint32_t>& numbers) {
+    bool any = false;
+    for (const FaultSeal::Open& leak : open) {
+        Candidate& crossed = candidates_[numbers[leak.fault]];
+        Candidate& other = candidates_[numbers[leak.owner]];
+        if (crossed.active && other.active) {
+            refuse(other.area_inside < crossed.area_inside ? other : crossed,
+                   "cannot be sealed at " + place_text(frame_.to_world(leak.place)) +
+                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
+                       (options_.mode == FaultMode::paired ? " or the exact fault mode" : ""));
+            any = true;
+        }
+    }
+    return any;
+}
+
 void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {
     std::uint64_t seeds = 0;
     for (const auto& of_fault : pass.seeded.seeds) {
@@ -641,19 +690,13 @@ void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {
     }
 }
 
-void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPreparation& result) {
-    Candidate& candidate = candidates_[number];
-    FaultAccount& account = candidate.account;
+/// Without triangles when none of it is left within the extent.
+FaultPreparer::Piece FaultPreparer::piece_of(const Pass& pass, std::uint32_t number) const {
     FaultMesh certified{pass.complex.points, {}};
     FaultMesh uncertified{pass.complex.points, {}};
-    account.finest_spacing = pass.finest[number];
     for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
         if (pass.complex.sheet[t] == number) {
-            const bool good = pass.seeded.certified[t] != 0;
-            (good ? certified : uncertified).triangles.push_back(pass.complex.triangles[t]);
-            account.certified += good ? 1 : 0;
-            account.unseparated += pass.seeded.separated[t] == 0 ? 1 : 0;
-            ++account.triangles;
+            (pass.seeded.certified[t] != 0 ? certified : uncertified).triangles.push_back(pass.complex.triangles[t]);
         }
     }
     compact(certified);
@@ -661,20 +704,17 @@ void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPrepara
     BoxCut sure = cut_to_box(std::move(certified), extent_);
     const BoxCut rest = cut_to_box(std::move(uncertified), extent_);
     FaultMesh sheet = std::move(sure.inside);
-    std::vector<std::uint8_t> flags(sheet.triangles.size(), 1);
+    Piece piece;
+    piece.certified.assign(sheet.triangles.size(), 1);
     append(sheet, rest.inside);
-    flags.resize(sheet.triangles.size(), 0);
+    piece.certified.resize(sheet.triangles.size(), 0);
     weld(sheet);
     FaultMesh margin = std::move(sure.outside);
     append(margin, rest.outside);
     weld(margin);
     append(margin, pass.skirts[number]);
-    if (sheet.triangles.empty()) {
-        account.reason = "nothing of it is left within the extent";
-        account.area_trimmed = candidate.area_inside;
-        return;
-    }
-    Fault fault;
+    const Candidate& candidate = candidates_[number];
+    Fault& fault = piece.fault;
     fault.name = candidate.surface->name;
     fault.spacing = scale_.spacing;
     fault.width = scale_.width;
@@ -683,20 +723,40 @@ void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPrepara
     fault.seeds = pass.seeded.seeds[number];
     fault.covering_radius = pass.seeded.covering_radius[number];
     fault.protection_radius = pass.seeded.protection_radius[number];
+    return piece;
+}
+
+void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPreparation& result) {
+    Candidate& candidate = candidates_[number];
+    FaultAccount& account = candidate.account;
+    account.finest_spacing = pass.finest[number];
+    for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
+        if (pass.complex.sheet[t] == number) {
+            account.certified += pass.seeded.certified[t] != 0 ? 1 : 0;
+            account.unseparated += pass.seeded.separated[t] == 0 ? 1 : 0;
+            ++account.triangles;
+        }
+    }
+    Piece piece = piece_of(pass, number);
+    if (piece.fault.sheet.triangles.empty()) {
+        account.reason = "nothing of it is left within the extent";
+        account.area_trimmed = candidate.area_inside;
+        return;
+    }
     account.used = true;
-    account.seeds = fault.seeds.size();
+    account.seeds = piece.fault.seeds.size();
     account.area_trimmed = std::min(candidate.area_inside, candidate.area_dropped + pass.trimmed[number]);
     account.area_used = candidate.area_inside - account.area_trimmed;
     FaultMesh read;
     for (const Sheet& as_read : candidate.sheets) {  // with what was added at the extent's faces
         append(read, as_read.mesh);
     }
-    const Deviation measured = deviation(read, sheet, extent_);
+    const Deviation measured = deviation(read, {piece.fault.sheet.vertices, piece.fault.sheet.triangles}, extent_);
     account.deviation_median = measured.median;
     account.deviation_p95 = measured.p95;
     account.deviation_max = measured.max;
-    result.faults.push_back(std::move(fault));
-    result.certified.push_back(std::move(flags));
+    result.faults.push_back(std::move(piece.fault));
+    result.certified.push_back(std::move(piece.certified));
 }
 
 }  // namespace terratet

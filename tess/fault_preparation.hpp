@@ -11,6 +11,7 @@
 #include "tess/fault.hpp"
 #include "tess/fault_cut.hpp"
 #include "tess/fault_repair.hpp"
+#include "tess/fault_seal.hpp"
 #include "tess/fault_seed.hpp"
 
 namespace terratet {
@@ -28,6 +29,7 @@ struct FaultScale {
     double protection;  ///< the largest the protection radius should be
     double margin;      ///< width of the margin
     double reach;       ///< how far surfaces go on beyond the extent
+    double hull;        ///< and the hull box
 };
 
 class FaultPreparer {
@@ -77,6 +79,16 @@ class FaultPreparer {
     void seed(Pass& pass, const SizeField& sizes) const;
     [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;
 
+    /// False when surfaces were refused that could not be sealed.
+    bool seal(Pass& pass);
+    bool refuse_leaking(const std::vector<FaultSeal::Open>& open, const std::vector<std::uint32_t>& numbers);
+
+    /// A surface as a fault, and which triangles of its sheet are certified.
+    struct Piece {
+        Fault fault;
+        std::vector<std::uint8_t> certified;
+    };
+    [[nodiscard]] Piece piece_of(const Pass& pass, std::uint32_t number) const;
     void finish(const Pass& pass, FaultPreparation& result);
     void collect(const Pass& pass, std::uint32_t number, FaultPreparation& result);
 

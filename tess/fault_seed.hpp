@@ -29,6 +29,7 @@ struct SeededComplex {
     std::vector<std::vector<Seed>> seeds;   ///< by surface: mirrored pairs, + first
     std::vector<double> covering_radius;    ///< by surface
     std::vector<double> protection_radius;  ///< by surface
+    std::vector<double> radius;             ///< by point: of its ball (exact mode)
     std::vector<char> certified;            ///< by triangle: the nearest seed is on a point's own side (exact mode)
     std::vector<char> separated;            ///< by triangle: so it is at samples a quarter of ε away from it
 };

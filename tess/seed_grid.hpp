@@ -62,6 +62,7 @@ class SeedGrid {
     }
 
     [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
+    [[nodiscard]] double radius() const { return radius_; }
 
   private:
     using Index = std::array<std::int64_t, 3>;

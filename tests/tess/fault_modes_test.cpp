@@ -105,9 +105,7 @@ TEST_CASE("F1: in both modes no foreign edge crosses faults of any shape and mee
             const Box3 hull = extent.grown(hull_margin(options, spacing));
             const auto counted = testing::count_crossings(preparation.faults, hull, 3000, 1, 5);
             CHECK(counted.paired > 50);
-            // In exact mode the sharpest wedge is refined once only, for the sake of certificates: a few edges slip.
-            const bool sharp_wedge = mode == FaultMode::exact && made_up.name == "Y of 20 degrees";
-            CHECK(counted.crossing <= (sharp_wedge ? 12 : 0));
+            CHECK(counted.crossing == 0);
         }
     }
 }

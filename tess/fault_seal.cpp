@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/fault_seal.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tess/fault_leaks.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr int rounds = 24;
+constexpr double flake_share = 1e-3;  ///< size of a flake, in protection radii
+constexpr double closable = 0.99;     ///< radius of a ball that one flake closes, in protection radii
+constexpr double widest_kept = 4;     ///< radius of a ball that several may close, in the same
+constexpr double lowest = 1e-4;       ///< height of an added seed over its sheet at least, in spacings
+constexpr double harmful = 1e-3;      ///< distance of a seed from a foreign sheet, in spacings
+constexpr double touching = 1 - 1e-6;
+
+class Sealer {
+  public:
+    Sealer(std::span<const Fault> faults, const Box3& hull, const Frame& frame)
+        : faults_(faults), hull_(hull), frame_(frame), finder_(faults, hull) {
+        seal_.flakes.resize(faults.size());
+    }
+
+    FaultSeal run() {
+        for (int round = 0;; ++round) {
+            bool again = false;
+            for (const Leak& leak : finder_.find()) {
+                if (close_by_flake(leak) || will_change(leak)) {
+                    continue;
+                }
+                if (round == rounds || !(add_pair(leak) || drop_pair(leak) || keep_away(leak))) {
+                    seal_.open.push_back({leak.fault, finder_.sites()[leak.from].owner, leak.place});
+                }
+                again = true;
+            }
+            if (!again || round == rounds) {
+                return result();
+            }
+            exchange();
+        }
+    }
+
+  private:
+    struct Pair {
+        std::uint32_t fault = 0;
+        Vec3 plus;
+        Vec3 minus;
+    };
+
+    bool close_by_flake(const Leak& leak) {
+        if (leak.between_seeds || leak.radius > closable * protection(leak)) {
+            return false;
+        }
+        if (!finder_.protects(leak)) {
+            add_flake(leak, leak.center);
+        }
+        return true;
+    }
+
+    /// By what is planned already?
+    [[nodiscard]] bool will_change(const Leak& leak) const {
+        return std::ranges::find(dropped_, finder_.sites()[leak.from].first) != dropped_.end() ||
+               std::ranges::any_of(added_,
+                                   [&](const Pair& pair) { return holds(leak, pair.plus) || holds(leak, pair.minus); });
+    }
+
+    static bool holds(const Leak& leak, const Vec3& p) { return distance(p, leak.center) < touching * leak.radius; }
+
+    [[nodiscard]] double protection(const Leak& leak) const { return faults_[leak.protector].protection_radius; }
+
+    /// Where the sheet runs through the ball, as high as other sheets and seeds allow.
+    bool add_pair(const Leak& leak) {
+        const Fault& fault = faults_[leak.fault];
+        const Vec3 normal = finder_.normal_at(leak.fault, leak.place);
+        double height = 0.5 * fault.width;
+        for (std::uint32_t f = 0; f < faults_.size(); ++f) {
+            if (f != leak.fault) {
+                height = std::min(height, 0.4 * finder_.distance_to_sheet(f, leak.place));
+            }
+        }
+        for (; height > lowest * fault.spacing; height *= 0.5) {
+            const Vec3 plus = frame_.snapped(leak.place + height * normal);
+            const Vec3 minus = frame_.snapped(leak.place - height * normal);
+            if (fits(plus, leak, height) && fits(minus, leak, height)) {
+                added_.push_back({leak.fault, plus, minus});
+                return true;
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool fits(const Vec3& seed, const Leak& leak, double height) const {
+        const double clear = 0.25 * height;
+        return hull_.grown(-0.5 * faults_[leak.fault].spacing).contains(seed) && holds(leak, seed) &&
+               finder_.distance_to_seed(seed) >= clear &&
+               !finder_.is_hidden(leak.place + 0.01 * (seed - leak.place), seed) &&
+               std::ranges::none_of(added_, [&](const Pair& pair) {
+                   return distance(pair.plus, seed) < clear || distance(pair.minus, seed) < clear;
+               });
+    }
+
+    /// A seed that all but lies on another sheet, or on another part of its own, does more harm than good.
+    bool drop_pair(const Leak& leak) {
+        const LeakFinder::Site& site = finder_.sites()[leak.from];
+        if (finder_.distance_to_sheet(leak.fault, site.position) > harmful * faults_[leak.fault].spacing) {
+            return false;
+        }
+        dropped_.push_back(site.first);
+        return true;
+    }
+
+    /// What the ball reaches beyond the sheet is kept free, bit by bit.
+    bool keep_away(const Leak& leak) {
+        if (leak.between_seeds || leak.radius > widest_kept * protection(leak)) {
+            return false;
+        }
+        const double back = std::min(1.0, 0.9 * protection(leak) / leak.radius);
+        add_flake(leak, leak.to + back * (leak.center - leak.to));
+        finder_.look_again(leak);
+        return true;
+    }
+
+    void add_flake(const Leak& leak, const Vec3& center) {
+        finder_.protect(leak.protector, center);
+        const double size = flake_share * protection(leak);
+        FaultMesh flake;
+        flake.points = {center, center + Vec3{size, 0, 0}, center + Vec3{0, size, 0}};
+        flake.triangles = {{0, 1, 2}};
+        append(seal_.flakes[leak.protector], flake);
+    }
+
+    void exchange() {
+        for (const std::uint32_t first : dropped_) {
+            seal_.changed.push_back(finder_.sites()[first].position);
+            seal_.changed.push_back(finder_.sites()[first + 1].position);
+            finder_.drop_pair(first);
+        }
+        for (const Pair& pair : added_) {
+            seal_.changed.insert(seal_.changed.end(), {pair.plus, pair.minus});
+            finder_.add_pair(pair.fault, pair.plus, pair.minus);
+        }
+        dropped_.clear();
+        added_.clear();
+    }
+
+    FaultSeal result() {
+        seal_.seeds.resize(faults_.size());
+        for (std::uint32_t i = 0; i < finder_.sites().size(); ++i) {
+            const LeakFinder::Site& site = finder_.sites()[i];
+            if (site.owner != LeakFinder::nobody && site.present) {
+                seal_.seeds[site.owner].push_back({site.position, static_cast<std::int8_t>(i == site.first ? 1 : -1)});
+            }
+        }
+        std::ranges::sort(seal_.open, {},
+                          [](const FaultSeal::Open& o) { return std::tuple(o.fault, o.owner, o.place); });
+        return std::move(seal_);
+    }
+
+    std::span<const Fault> faults_;
+    const Box3& hull_;
+    const Frame& frame_;
+    LeakFinder finder_;
+    std::vector<Pair> added_;             ///< in this round
+    std::vector<std::uint32_t> dropped_;  ///< in this round: first sites of pairs
+    FaultSeal seal_;
+};
+
+}  // namespace
+
+FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame) {
+    return Sealer(faults, hull, frame).run();
+}
+
+}  // namespace terratet

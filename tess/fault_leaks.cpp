@@ -33,15 +33,15 @@ using Cell = Delaunay::Cell_handle;
 using Corners = std::array<std::uint32_t, 4>;  ///< sites
 using Edge = std::array<std::uint32_t, 2>;     ///< likewise
 
-constexpr double beyond = 1.001;      ///< of the protection radius: just out of the zone
-constexpr double sight = 0.75;        ///< how far from a seed its planes lie, in spacings
-constexpr double same_normal = 0.98;  ///< cosine of the angle up to which two planes are as one,
-constexpr double same_height = 0.1;   ///< and how far apart they may be, in protection radii
-constexpr double level = 0.9;         ///< cosine of the angle up to which a sheet does not count as bent,
-constexpr double plain_radius = 0.5;  ///< looked at so far from a seed, in spacings
-constexpr double shallow = 0.9;       ///< of the protection radius: balls reach that far anyhow
-constexpr double inside = 0.995;      ///< of the protection radius: what is protected for sure
-constexpr std::size_t most_planes = 12;
+constexpr double beyond = 1 + 1e-5;    ///< of the protection radius: just out of the zone
+constexpr double sight = 1.0;          ///< how far from a seed its planes lie, in spacings
+constexpr double same_normal = 0.99;   ///< cosine of the angle up to which two planes are as one,
+constexpr double same_height = 0.1;    ///< and how far apart they may be, in protection radii
+constexpr double level = 0.98;         ///< cosine of the angle up to which a sheet does not count as bent,
+constexpr double plain_radius = 0.75;  ///< looked at so far from a seed, in spacings
+constexpr double shallow = 0.95;       ///< of the protection radius: balls reach that far anyhow
+constexpr double inside = 0.995;       ///< of the protection radius: what is protected for sure
+constexpr std::size_t most_planes = 24;
 
 Kernel::Point_3 to_cgal(const Vec3& p) {
     return {p.x, p.y, p.z};

@@ -11,7 +11,8 @@
 /// therefore cross a sheet only if one of these balls reaches a place outside the protection zone that a sheet hides
 /// from a: a *leak*. Looked for in each ball are the places farthest off the planes of the triangles near its seeds,
 /// those right over its seeds, and those over the triangles, just out of the zone. Edges between seeds of faults that
-/// do not both meet the crossed one are leaks as they are.
+/// do not both meet the crossed one are leaks as they are. Edges between two other vertices are ruled out likewise, one
+/// of them being hidden from a, unless both see a round a rim: there the margin has to be wide enough.
 
 #include <memory>
 #include <span>

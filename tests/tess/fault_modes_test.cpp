@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "tess/fault_seal.hpp"
 #include "tess/seed_grid.hpp"
 #include "tests/tess/fault_cases.hpp"
 
@@ -108,6 +109,44 @@ TEST_CASE("F1: in both modes no foreign edge crosses faults of any shape and mee
             CHECK(counted.crossing == 0);
         }
     }
+}
+
+TEST_CASE("F1: without the flakes that seal sharp wedges edges would cross there, and a hole in the cover is filled") {
+    const Case wedge{"Y of 20 degrees", branching(20)};
+    FaultOptions options;
+    options.mode = FaultMode::exact;
+    const Box3 hull = extent.grown(hull_margin(options, spacing));
+    std::vector<Fault> faults = prepared(wedge, FaultMode::exact).faults;
+    for (Fault& fault : faults) {
+        std::erase_if(fault.margin.triangles, [&](const Triangle& t) {
+            const auto& p = fault.margin.vertices;
+            return distance(p[t[0]], p[t[1]]) < 0.01 * spacing && distance(p[t[0]], p[t[2]]) < 0.01 * spacing;
+        });
+    }
+    CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing > 3);
+
+    faults = prepared(cases().front(), FaultMode::paired).faults;
+    REQUIRE(faults.size() == 1);
+    const std::size_t before = faults[0].seeds.size();
+    for (std::size_t k = before; k > 0; k -= 2) {
+        if (distance(faults[0].seeds[k - 1].position, {200, 200, 205}) < 2 * spacing) {
+            faults[0].seeds.erase(faults[0].seeds.begin() + static_cast<std::ptrdiff_t>(k) - 2,
+                                  faults[0].seeds.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+    }
+    REQUIRE(faults[0].seeds.size() < before);
+    CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing > 3);
+    FaultSeal seal = seal_faults(faults, hull, {});
+    CHECK(seal.open.empty());
+    CHECK(seal.seeds[0].size() > faults[0].seeds.size());
+    faults[0].seeds = seal.seeds[0];
+    const auto first = static_cast<std::uint32_t>(faults[0].margin.vertices.size());
+    for (const Triangle& t : seal.flakes[0].triangles) {
+        faults[0].margin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    faults[0].margin.vertices.insert(faults[0].margin.vertices.end(), seal.flakes[0].points.begin(),
+                                     seal.flakes[0].points.end());
+    CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing == 0);
 }
 
 TEST_CASE("F2: of a million points beside faults none is told to be on the wrong side") {

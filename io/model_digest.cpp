@@ -101,8 +101,8 @@ class Hash {
         add_all(position, side);
     }
     void add(const Fault& f) {
-        const auto& [name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius] = f;
-        add_all(name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius);
+        const auto& [name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius, refined] = f;
+        add_all(name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius, refined);
     }
     void add(const RegionName& r) {
         const auto& [point, name] = r;
@@ -130,16 +130,16 @@ class Hash {
         add(s.any_censored() ? censored : decltype(s.censored){});  // there or not, it means the same
     }
     void add(const Domain& d) {
-        const auto& [extent, hull] = d;
-        add_all(extent, hull);
+        const auto& [extent, hull, outline] = d;
+        add_all(extent, hull, outline);
     }
     void add(const Criteria& c) {
         const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides] = c;
         add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides);
     }
     void add(const FaultOptions& o) {
-        const auto& [spacing, width, snap, max_seeds, mode] = o;
-        add_all(spacing, width, snap, max_seeds, mode);
+        const auto& [spacing, width, snap, max_seeds, mode, refine] = o;
+        add_all(spacing, width, snap, max_seeds, mode, refine);
     }
     void add(const VertexValues& v) {
         const auto& [values, extrapolation] = v;

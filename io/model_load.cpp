@@ -252,6 +252,7 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
     fault.width = layer.number_at(columns.width);
     fault.covering_radius = layer.number_at(columns.covering_radius);
     fault.protection_radius = layer.number_at(columns.protection_radius);
+    fault.refined = model_.fault_options.refine;
     const auto packed = unpack<std::array<double, 4>>(layer, layer.bytes_at(columns.seeds), "seeds");
     for (const auto& [x, y, z, side] : packed) {
         if (!is_acceptable({x, y, z}) || (side != 1 && side != -1 && side != 0)) {
@@ -277,7 +278,8 @@ void ModelReader::read_surfaces() {
         const std::string kind = layer.required_text_at(columns.kind);
         const std::string first = kind.substr(0, kind.find('_'));
         const std::string part = kind.substr(first.size());
-        constexpr std::array kinds{SurfaceKind::fault, SurfaceKind::horizon, SurfaceKind::topography};
+        constexpr std::array kinds{SurfaceKind::fault, SurfaceKind::horizon, SurfaceKind::topography,
+                                   SurfaceKind::domain};
         const auto known =
             std::find_if(kinds.begin(), kinds.end(), [&](SurfaceKind k) { return to_string(k) == first; });
         if (known == kinds.end() || (!part.empty() && part != "_sheet" && part != "_margin")) {

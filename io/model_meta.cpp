@@ -49,6 +49,28 @@ Box3 box(const json& b) {
     return {vector(b.at("lo")), vector(b.at("hi"))};
 }
 
+json domain_json(const Domain& domain) {
+    json rings = json::array();
+    for (const auto& ring : domain.outline) {
+        json& points = rings.emplace_back(json::array());
+        for (const Vec3& p : ring) {
+            points.push_back(vector(p));
+        }
+    }
+    return {{"extent", box(domain.extent)}, {"hull", box(domain.hull)}, {"outline", rings}};
+}
+
+Domain domain_of(const json& j) {
+    Domain domain{box(j.at("extent")), box(j.at("hull")), {}};
+    for (const json& ring : j.at("outline")) {
+        auto& points = domain.outline.emplace_back();
+        for (const json& p : ring) {
+            points.push_back(vector(p));
+        }
+    }
+    return domain;
+}
+
 json frame_json(const Frame& frame) {
     return {{"crs_wkt", frame.crs_wkt},
             {"crs_name", frame.crs_name},
@@ -158,13 +180,17 @@ json fault_options_json(const FaultOptions& o) {
             {"width", number(o.width)},
             {"snap", number(o.snap)},
             {"max_seeds", o.max_seeds},
-            {"mode", o.mode == FaultMode::exact ? "exact" : "paired"}};
+            {"mode", o.mode == FaultMode::exact ? "exact" : "paired"},
+            {"refine", o.refine}};
 }
 
 FaultOptions fault_options_of(const json& j) {
-    return {number(j.at("spacing")), number(j.at("width")), number(j.at("snap")),
+    return {number(j.at("spacing")),
+            number(j.at("width")),
+            number(j.at("snap")),
             j.at("max_seeds").get<std::uint64_t>(),
-            is_second(j.at("mode"), "paired", "exact") ? FaultMode::exact : FaultMode::paired};
+            is_second(j.at("mode"), "paired", "exact") ? FaultMode::exact : FaultMode::paired,
+            j.at("refine").get<bool>()};
 }
 
 json region_names_json(const std::vector<RegionName>& names) {
@@ -276,7 +302,7 @@ Meta to_meta(const Model& model, const std::vector<std::string>& property_column
             {"density", model.density == DensityMode::paper ? "paper" : "canonical"},
             {"fault_options", fault_options_json(model.fault_options).dump()},
             {"regions", region_names_json(model.region_names).dump()},
-            {"domain", json{{"extent", box(model.domain.extent)}, {"hull", box(model.domain.hull)}}.dump()},
+            {"domain", domain_json(model.domain).dump()},
             {"estimator", model.estimator},
             {"counts", counts_json(row_counts(model)).dump()},
             {"digest", model_digest(model)}};
@@ -313,8 +339,7 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
         content.model.criteria = criteria_of(parsed("criteria"));
         content.model.fault_options = fault_options_of(parsed("fault_options"));
         content.model.region_names = region_names_of(parsed("regions"));
-        const json domain = parsed("domain");
-        content.model.domain = {box(domain.at("extent")), box(domain.at("hull"))};
+        content.model.domain = domain_of(parsed("domain"));
         content.counts = counts_of(parsed("counts"));
         key = "density";
         content.model.density =

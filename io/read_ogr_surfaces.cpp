@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "io/gdal_dataset.hpp"
+#include "io/polygon_surface.hpp"
 #include "io/read_surfaces.hpp"
 #include "io/rejections.hpp"
 #include "io/text_lines.hpp"
@@ -14,110 +15,6 @@
 
 namespace terratet {
 namespace {
-
-using Rings = std::vector<std::vector<Vec3>>;
-
-/// A surface being put together from polygons, corners at equal positions joined.
-class SurfaceBuilder {
-  public:
-    /// Returns why the polygon cannot be used; empty when it was.
-    std::string add(const Rings& rings);
-    /// In canonical order, see the header.
-    Surface finish(std::string name) const;
-    [[nodiscard]] bool empty() const { return triangles_.empty(); }
-
-  private:
-    std::uint32_t index(const Vec3& p) {
-        return index_.emplace(p, static_cast<std::uint32_t>(index_.size())).first->second;
-    }
-    std::map<Vec3, std::uint32_t> index_;
-    std::vector<Triangle> triangles_;
-};
-
-std::string SurfaceBuilder::add(const Rings& rings) {
-    std::vector<Vec3> corners;
-    for (const auto& ring : rings) {
-        if (ring.size() < 3) {
-            return "a polygon with fewer than three corners";
-        }
-        corners.insert(corners.end(), ring.begin(), ring.end());
-    }
-    if (!std::all_of(corners.begin(), corners.end(), is_acceptable)) {
-        return "coordinates must be numbers within 1e9";
-    }
-    const bool triangle = corners.size() == 3;  // kept even without area, as in other formats: repair sees to it
-    const std::vector<Triangle> triangles = triangle ? std::vector<Triangle>{{0, 1, 2}} : triangulate_polygon(rings);
-    if (triangles.empty()) {
-        return "a polygon of " + std::to_string(corners.size()) + " corners that crosses itself or has no area";
-    }
-    for (const Triangle& t : triangles) {
-        const Triangle joined{index(corners[t[0]]), index(corners[t[1]]), index(corners[t[2]])};
-        if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) {
-            return "a triangle with two corners at one place";
-        }
-        triangles_.push_back(joined);
-    }
-    return {};
-}
-
-Surface SurfaceBuilder::finish(std::string name) const {
-    Surface surface;
-    surface.name = std::move(name);
-    std::vector<std::uint32_t> rank(index_.size());
-    for (const auto& [position, first_index] : index_) {  // ascending positions
-        rank[first_index] = static_cast<std::uint32_t>(surface.vertices.size());
-        surface.vertices.push_back(position);
-    }
-    for (const Triangle& t : triangles_) {
-        Triangle sorted{rank[t[0]], rank[t[1]], rank[t[2]]};
-        std::rotate(sorted.begin(), std::min_element(sorted.begin(), sorted.end()), sorted.end());
-        surface.triangles.push_back(sorted);
-    }
-    std::sort(surface.triangles.begin(), surface.triangles.end());
-    return surface;
-}
-
-/// Open, and without consecutive repetitions.
-std::vector<Vec3> ring_of(const OGRLinearRing& ring) {
-    std::vector<Vec3> points;
-    for (int i = 0; i < ring.getNumPoints(); ++i) {
-        const Vec3 p{ring.getX(i), ring.getY(i), ring.getZ(i)};
-        if (points.empty() || points.back() != p) {
-            points.push_back(p);
-        }
-    }
-    if (points.size() > 1 && points.front() == points.back()) {
-        points.pop_back();
-    }
-    return points;
-}
-
-Rings rings_of(const OGRPolygon& polygon) {
-    Rings rings;
-    for (const OGRLinearRing* ring : polygon) {
-        rings.push_back(ring_of(*ring));
-    }
-    return rings;
-}
-
-/// Calls `use` with every polygon in a geometry; `refuse` with the kind of what holds none. GDAL bounds the nesting.
-template <typename Use, typename Refuse>
-void for_each_polygon(const OGRGeometry& geometry, const Use& use, const Refuse& refuse) {
-    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-    if (type == wkbPolygon || type == wkbTriangle) {
-        use(*geometry.toPolygon());
-    } else if (type == wkbTIN || type == wkbPolyhedralSurface) {
-        for (const OGRPolygon* patch : *geometry.toPolyhedralSurface()) {
-            use(*patch);
-        }
-    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-        for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
-            for_each_polygon(*part, use, refuse);
-        }
-    } else {
-        refuse(OGRGeometryTypeToName(type));
-    }
-}
 
 /// The column that names surfaces: by the usual names, or the layer of a drawing that was converted face by face.
 int name_field(OGRFeatureDefn& definition, const Source& source, const ColumnNames& columns) {
@@ -135,7 +32,7 @@ int name_field(OGRFeatureDefn& definition, const Source& source, const ColumnNam
 struct Feature {
     std::string name;
     std::int64_t record = 0;
-    std::vector<Rings> polygons;
+    std::vector<PolygonRings> polygons;
 };
 
 std::vector<Feature> read_features(OGRLayer& layer, int name_index, Rejections& rejections, bool& any_flat) {
@@ -202,9 +99,9 @@ RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const Colu
     }
     name_the_nameless(features, to_utf8(source.layer.empty() ? layer.GetName() : source.layer));
 
-    std::map<std::string, SurfaceBuilder> builders;
+    std::map<std::string, PolygonSurface> builders;
     for (const Feature& feature : features) {
-        for (const Rings& rings : feature.polygons) {
+        for (const PolygonRings& rings : feature.polygons) {
             const std::string reason = builders[feature.name].add(rings);
             if (!reason.empty()) {
                 rejections.add(feature.record, [&] { return reason; });

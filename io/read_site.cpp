@@ -106,6 +106,11 @@ Inputs read_inputs(const SiteInputs& inputs, Diagnostics& diagnostics, const Che
     for (const Source& source : inputs.topography) {
         read.surfaces.push_back(read_surface_file(source, SurfaceKind::topography, inputs, diagnostics));
     }
+    for (const Source& source : inputs.domain) {
+        RawSurfaces raw = read_domain(source, diagnostics);
+        raw.crs = resolved_crs(source, raw.crs, inputs.source_crs);
+        read.surfaces.push_back(std::move(raw));
+    }
     checkpoint.pass(0.6);
     return read;
 }
@@ -209,6 +214,11 @@ void to_crs(RawSurfaces& raw, const Crs& target, Diagnostics& diagnostics) {
         diagnostics.note(raw.surfaces.front().file + ": " + remark);
     }
     raw.crs = target;
+    for (Surface& surface : raw.surfaces) {
+        for (Vec3& p : surface.vertices) {
+            p.z = surface.kind == SurfaceKind::domain ? 0 : p.z;  // of a polygon in plan z says nothing
+        }
+    }
 }
 
 /// Brings everything to the target; returns the CRSs that the collar tables were in, whose units their depths have.

@@ -40,6 +40,7 @@ struct SiteInputs {
     std::vector<Source> faults;
     std::vector<Source> surfaces;  ///< horizons
     std::vector<Source> topography;
+    std::vector<Source> domain;  ///< a polygon in plan: one at most
 
     std::string source_crs;               ///< -s_srs
     std::string target_crs;               ///< -t_srs

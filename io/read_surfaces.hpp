@@ -64,4 +64,8 @@ RawSurfaces read_raster_surface(const Source& source, SurfaceKind kind, Diagnost
 RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                               Diagnostics& diagnostics);
 
+/// The polygons of a layer as one surface of kind domain, named after the layer: their union in plan, z dropped, holes
+/// and all. What crosses itself is repaired by GDAL's MakeValid, and a note says so. Throws InputError: no polygons.
+RawSurfaces read_domain(const Source& source, Diagnostics& diagnostics);
+
 }  // namespace terratet

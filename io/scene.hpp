@@ -80,13 +80,13 @@ struct ScenePart {
     bool lit = true;
 };
 
-/// "domain boundary": the extent's faces and the ground, seen from within. A viewer that culls back faces looks into an
-/// open box from any direction, at what is inside and at the faces behind it. Then "region N", or its name, for each
-/// region that meets a fault: its walls there, seen from outside; with the domain boundary they enclose it. Parts
-/// without triangles may be among them.
+/// "domain boundary": the extent's faces, the ground and the domain's walls, seen from within. A viewer that culls back
+/// faces looks into an open box from any direction, at what is inside and at the faces behind it. Then "region N", or
+/// its name, for each region that meets a fault: its walls there, seen from outside; with the domain boundary they
+/// enclose it. Parts without triangles may be among them.
 std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneFrame& frame);
 
-/// A prepared fault's or horizon's sheet, as far as it is not above the ground.
+/// A prepared fault's or horizon's sheet, as far as the model goes.
 ScenePart fault_sheet(const Model& model, std::size_t index, const SceneFrame& frame);
 
 /// All boreholes as tubes; without triangles when there are none.

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "io/scene.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/model_bounds.hpp"
 
 namespace terratet {
 namespace {
@@ -82,6 +82,8 @@ std::vector<std::vector<double>> all_values(const ModelView& view, const Clipped
     return values;
 }
 
+constexpr double upright_limit = 1e-3;  ///< cosine: the walls of a domain are, grounds seldom
+
 /// 0…5: which face of a box a normal belongs to.
 int box_face(const Vec3& normal) {
     int axis = 0;
@@ -106,7 +108,7 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
             entry->second.add(corners, 0);
         }
     };
-    // Off the extent's faces, a facet of one cell has its twin on a fault and none on the ground.
+    // Off the extent's faces, a facet of one cell has its twin on a fault, and none where the model ends.
     const auto places_of = [&](const ClippedMesh::Facet& facet) {
         std::array<Vec3, 3> places;
         std::transform(facet.corners.begin(), facet.corners.end(), places.begin(),
@@ -120,11 +122,13 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
             ++facets_at[places_of(facet)];
         }
     }
-    constexpr int ground = 6;  // after the box's faces
+    constexpr int ground = 6;  // after the box's faces, before the outline's
     for (const ClippedMesh::Facet& facet : clipped.facets) {
         const auto& [a, b, c] = facet.corners;
         if (facet.beyond < 0 && !facet.on_extent && facets_at[places_of(facet)] < 2) {
-            boundary.add({a, c, b}, ground);
+            const Vec3 normal = facet_normal(clipped, facet.corners);
+            const bool upright = std::abs(normal.z) < upright_limit * length(normal);
+            boundary.add({a, c, b}, upright ? ground + 1 + box_face(normal) : ground);
         } else if (facet.beyond < 0 && !facet.on_extent) {
             add_wall({a, b, c}, clipped.region[facet.cell]);
         } else if (facet.beyond < 0) {
@@ -158,9 +162,10 @@ ScenePart fault_sheet(const Model& model, std::size_t index, const SceneFrame& f
     part.color = {0.4 + 0.6 * tint.r, 0.4 + 0.6 * tint.g, 0.4 + 0.6 * tint.b};
     part.opacity = 0.5;
     const FaultProximity faults(model.faults);
+    const ModelBounds bounds(model.domain, faults);
     for (const Triangle& t : fault.sheet.triangles) {
         const auto& v = fault.sheet.vertices;
-        if (!is_above_ground(faults, (v[t[0]] + v[t[1]] + v[t[2]]) / 3)) {
+        if (!bounds.excludes((v[t[0]] + v[t[1]] + v[t[2]]) / 3)) {
             part.triangles.push_back(t);
         }
     }

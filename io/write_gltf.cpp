@@ -19,7 +19,7 @@ OutputRecord write_gltf(const ModelView& view, const std::string& path, const Ex
     std::vector<ScenePart> parts = tessellation_surfaces(view, frame);
     report_progress(options.progress, "write gltf", 0.4);
     for (std::size_t f = 0; f < view.model.faults.size(); ++f) {
-        if (view.model.faults[f].sheet.kind != SurfaceKind::topography) {  // the domain ends there
+        if (!is_bound(view.model.faults[f].sheet.kind)) {  // the domain ends there
             parts.push_back(fault_sheet(view.model, f, frame));
         }
     }

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <unordered_set>
 
-#include "tess/collapse.hpp"
+#include "tess/box_clip.hpp"
 #include "tess/error.hpp"
 #include "tess/fault_blocks.hpp"
 
@@ -74,13 +74,33 @@ double top_of_ground(const Site& site, const Box3& extent) {
     return top;
 }
 
-/// Throws UsageError for a topography in exact mode: its seeds cannot meet on the surface (tess/collapse.hpp).
-void require_paired_ground(const Model& model) {
-    const bool topography = std::ranges::any_of(
-        model.surfaces, [](const Surface& surface) { return surface.kind == SurfaceKind::topography; });
-    if (topography && model.fault_options.mode != FaultMode::paired) {
-        throw UsageError("--topography needs --fault-mode paired");
+/// Throws UsageError for a topography or a domain in exact mode: its seeds cannot meet on the surface
+/// (tess/collapse.hpp).
+void require_paired_bounds(const Model& model) {
+    for (const Surface& surface : model.surfaces) {
+        if (is_bound(surface.kind) && model.fault_options.mode != FaultMode::paired) {
+            throw UsageError("--" + std::string(to_string(surface.kind)) + " needs --fault-mode paired");
+        }
     }
+}
+
+double area_in_plan(const Domain& domain) {
+    const Vec3 size = domain.extent.size();
+    Box3 plan = domain.extent;
+    plan.lo.z = -1;
+    plan.hi.z = 1;
+    double clipped_area = 0;
+    for (const auto& ring : domain.outline) {  // fans from one point, signed: their parts outside the ring cancel out
+        for (std::size_t i = 2; i < ring.size(); ++i) {
+            const std::vector<Vec3> part = clipped({ring[0], ring[i - 1], ring[i]}, plan);
+            Vec3 twice;
+            for (std::size_t k = 2; k < part.size(); ++k) {
+                twice = twice + cross(part[k - 1] - part[0], part[k] - part[0]);
+            }
+            clipped_area += twice.z / 2;
+        }
+    }
+    return domain.outline.empty() ? size.x * size.y : clipped_area;
 }
 
 /// Throws InputError when a topography was refused, or does not cover the extent: its cells would end in a staircase.
@@ -92,28 +112,152 @@ void require_ground(const Model& model, const BuildReport& report) {
         }
     }
     double covered = 0;
+    bool any = false;
+    const Outline outline(model.domain.outline);
     for (const Fault& fault : model.faults) {
         for (const Triangle& t : fault.sheet.triangles) {
             const Vec3& a = fault.sheet.vertices[t[0]];
-            covered += fault.sheet.kind == SurfaceKind::topography
-                           ? 0.5 * cross(fault.sheet.vertices[t[1]] - a, fault.sheet.vertices[t[2]] - a).z
-                           : 0;
+            const Vec3& b = fault.sheet.vertices[t[1]];
+            const Vec3& c = fault.sheet.vertices[t[2]];
+            const bool counts = fault.sheet.kind == SurfaceKind::topography && outline.contains((a + b + c) / 3);
+            covered += counts ? 0.5 * cross(b - a, c - a).z : 0;
+            any = any || fault.sheet.kind == SurfaceKind::topography;
         }
     }
-    const Vec3 size = model.domain.extent.size();
-    const double share = std::abs(covered) / (size.x * size.y);
-    if (has_ground(model) && std::abs(share - 1) > 1e-3) {
+    const double share = std::abs(covered) / area_in_plan(model.domain);
+    if (any && std::abs(share - 1) > 1e-3) {
         std::ostringstream text;
         text.precision(4);
-        text << "the topography covers " << 100 * share
-             << " % of the extent's area, once each place: it must cover all of "
+        text << "the topography covers " << 100 * share << " % of the "
+             << (model.domain.outline.empty() ? "extent" : "domain")
+             << "'s area, once each place: it must cover all of "
              << "it, between bottom and top; choose an --extent within it";
         throw InputError(text.str());
     }
 }
 
+const Surface* domain_surface(const Site& site) {
+    const auto found = std::ranges::find(site.surfaces, SurfaceKind::domain, &Surface::kind);
+    return found == site.surfaces.end() ? nullptr : &*found;
+}
+
+/// Throws InputError when a wall of the domain is missing: the model would run out there.
+void require_walls(const Model& model, const std::vector<FaultAccount>& accounts) {
+    double wanted = 0;
+    for (const auto& ring : model.domain.outline) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            wanted +=
+                length_inside(ring[i], ring[(i + 1) % ring.size()], model.domain.extent) * model.domain.extent.size().z;
+        }
+    }
+    double there = 0;
+    for (const Fault& fault : model.faults) {
+        there += fault.sheet.kind == SurfaceKind::domain ? statistics(fault.sheet).area : 0;
+    }
+    if (std::abs(there - wanted) <= 0.01 * wanted) {
+        return;
+    }
+    std::string why = "give a finer --fault-spacing, or smooth the polygon";
+    for (const FaultAccount& account : accounts) {
+        if (account.kind == SurfaceKind::domain && !account.used) {
+            why = "a part of it " + account.reason;
+        }
+    }
+    std::ostringstream text;
+    text.precision(4);
+    text << domain_surface(model)->file << ": the model cannot be bounded by this domain, as "
+         << 100 * std::abs(there - wanted) / wanted << " % of its walls could not be followed: " << why;
+    throw InputError(text.str());
+}
+
+/// The walls of the domain are one surface in the report.
+void join_walls(const Surface& domain, std::vector<FaultAccount>& accounts) {
+    FaultAccount joined;
+    joined.name = domain.name;
+    joined.file = domain.file;
+    joined.kind = SurfaceKind::domain;
+    for (const FaultAccount& wall : accounts) {
+        if (wall.kind != SurfaceKind::domain) {
+            continue;
+        }
+        joined.used = joined.used || wall.used;
+        joined.reason = joined.reason.empty() ? wall.reason : joined.reason;
+        joined.parts += wall.parts;
+        joined.seeds += wall.seeds;
+        joined.triangles += wall.triangles;
+        joined.certified += wall.certified;
+        joined.unseparated += wall.unseparated;
+        joined.finest_spacing =
+            joined.finest_spacing == 0 ? wall.finest_spacing : std::min(joined.finest_spacing, wall.finest_spacing);
+        joined.area_in += wall.area_in;
+        joined.area_used += wall.area_used;
+        joined.area_outside += wall.area_outside;
+        joined.area_trimmed += wall.area_trimmed;
+        joined.area_refused += wall.area_refused;
+        joined.deviation_median = std::max(joined.deviation_median, wall.deviation_median);
+        joined.deviation_p95 = std::max(joined.deviation_p95, wall.deviation_p95);
+        joined.deviation_max = std::max(joined.deviation_max, wall.deviation_max);
+        joined.dropped_triangles += wall.dropped_triangles;
+    }
+    if (!joined.used && joined.reason.empty()) {
+        joined.reason = "its boundary lies outside the extent, which it covers";
+    }
+    std::erase_if(accounts, [](const FaultAccount& account) { return account.kind == SurfaceKind::domain; });
+    const auto at = std::ranges::upper_bound(accounts, joined.name, {}, &FaultAccount::name);
+    accounts.insert(at, std::move(joined));
+}
+
+/// Draws the domain's outline, if there is one, to the walls' spacing. Throws InputError when nothing of it is left.
+void draw_outline(const Site& site, const BuildOptions& options, Model& model, BuildReport& report) {
+    const Surface* const domain = domain_surface(site);
+    if (domain == nullptr) {
+        return;
+    }
+    const double spacing = options.faults.spacing > 0 ? options.faults.spacing : model.criteria.l_min;
+    OutlineReport drawn;
+    model.domain.outline = outline_of(site.surfaces, spacing, drawn);
+    std::ostringstream text;
+    text.precision(6);
+    if (model.domain.outline.empty()) {
+        text << domain->file << ": the domain's area, " << drawn.area_in
+             << ", is less than the square of the fault spacing, " << spacing
+             << "; is its coordinate system right (srs=)? Else give a smaller --fault-spacing";
+        throw InputError(text.str());
+    }
+    if (drawn.corners < drawn.corners_in) {
+        text << domain->file << ": the domain is drawn to the fault spacing " << spacing << ": " << drawn.corners
+             << " of " << drawn.corners_in << " corners are left, its boundary moved by " << drawn.deviation
+             << " at most, its area by " << 100 * std::abs(drawn.area - drawn.area_in) / drawn.area_in << " %";
+        if (drawn.dropped > 0) {
+            text << "; " << drawn.dropped << " rings smaller than the spacing are left out";
+        }
+        report.diagnostics.note(text.str());
+    }
+}
+
+/// The data's box in plan, or that of the domain and L_min more where that is smaller. Throws InputError when they are
+/// apart.
+Box3 bounded(Box3 extent, const Box3& data, const Site& site, const Model& model) {
+    Box3 plan = bounding_box(model.domain.outline);
+    for (const int axis : {0, 1}) {
+        if (plan.hi[axis] < data.lo[axis] || plan.lo[axis] > data.hi[axis]) {
+            const Vec3 lo = model.frame.to_world(plan.lo);
+            const Vec3 hi = model.frame.to_world(plan.hi);
+            std::ostringstream text;
+            text.precision(9);
+            text << domain_surface(site)->file << ": the domain, from (" << lo.x << ", " << lo.y << ") to (" << hi.x
+                 << ", " << hi.y << "), lies wholly outside the "
+                 << "data; is its coordinate system right? Name it with srs= after the file";
+            throw InputError(text.str());
+        }
+        extent.lo[axis] = std::max(extent.lo[axis], plan.lo[axis] - model.criteria.l_min);
+        extent.hi[axis] = std::min(extent.hi[axis], plan.hi[axis] + model.criteria.l_min);
+    }
+    return extent;
+}
+
 /// Fills in the defaults: resolution from the size of the data, extent from data and resolution.
-void resolve_resolution(const Site& site, const BuildOptions& options, Model& model) {
+void resolve_resolution(const Site& site, const BuildOptions& options, Model& model, BuildReport& report) {
     const Box3 data = data_box(site);
     if (data.empty() && options.extent.empty()) {
         throw InputError("there is nothing to build from: no usable sample or borehole, and no --extent");
@@ -128,8 +272,13 @@ void resolve_resolution(const Site& site, const BuildOptions& options, Model& mo
     }
     model.criteria.variation.resize(site.properties.size());
     validate(model.criteria);
+    draw_outline(site, options, model, report);
     Box3 extent =
         options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad) : options.extent;
+    if (!model.domain.outline.empty()) {
+        const Box3 within = bounded(extent, options.extent.empty() ? data : extent, site, model);
+        extent = options.extent.empty() ? within : extent;
+    }
     if (options.extent.empty()) {
         extent.hi.z = std::max(extent.hi.z, top_of_ground(site, extent) + model.criteria.l_min);
     }
@@ -140,7 +289,7 @@ void resolve_resolution(const Site& site, const BuildOptions& options, Model& mo
                          std::to_string(size.z) + ") is thinner than --lmin " + std::to_string(model.criteria.l_min) +
                          "; give a larger --extent or --pad, or a smaller --lmin");
     }
-    model.domain = {extent, extent};
+    model.domain.extent = model.domain.hull = extent;
 }
 
 /// Cells as long as the site is wide and as thin as it is high are slivers; in stretched z they are not.
@@ -158,11 +307,23 @@ void suggest_z_scale(const Model& model, BuildReport& report) {
 
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
     model.fault_options = options.faults;
-    require_paired_ground(model);
-    FaultPreparation preparation = prepare_faults(model.surfaces, model.domain.extent, model.frame,
-                                                  model.criteria.l_min, options.faults, progress);
+    require_paired_bounds(model);
+    const Surface* const domain = domain_surface(model);
+    std::vector<Surface> surfaces = model.surfaces;
+    if (domain != nullptr) {
+        std::erase_if(surfaces, [](const Surface& surface) { return surface.kind == SurfaceKind::domain; });
+        std::ranges::move(domain_walls(model.domain.outline, domain->name, domain->file, model.domain.extent,
+                                       hull_margin(options.faults, model.criteria.l_min)),
+                          std::back_inserter(surfaces));
+    }
+    FaultPreparation preparation = prepare_faults(surfaces, model.domain.extent, model.frame, model.criteria.l_min,
+                                                  options.faults, progress, model.samples.positions);
     model.faults = std::move(preparation.faults);
     report.faults = std::move(preparation.accounts);
+    if (domain != nullptr) {
+        require_walls(model, report.faults);
+        join_walls(*domain, report.faults);
+    }
     require_ground(model, report);
     if (!model.faults.empty()) {
         const Box3 hull = model.domain.extent.grown(hull_margin(options.faults, model.criteria.l_min));
@@ -181,8 +342,9 @@ void name_regions(const BuildOptions& options, Model& model) {
     for (const RegionName& named : model.region_names) {
         const std::int32_t block = blocks.at(named.point);
         if (block < 0) {
-            throw UsageError("--region-name: the point that names '" + named.name +
-                             "' lies in no region: it is outside the extent, or on a fault");
+            throw UsageError(
+                "--region-name: the point that names '" + named.name +
+                "' lies in no region: it is outside the extent or the domain, above the ground, or on a fault");
         }
         const auto [other, fresh] = name_of.try_emplace(block, named.name);
         if (!fresh) {
@@ -312,7 +474,7 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     Model model;
     canonicalise(site, report);
     static_cast<Site&>(model) = std::move(site);
-    resolve_resolution(model, options, model);
+    resolve_resolution(model, options, model, report);
     suggest_z_scale(model, report);
     model.density = options.density;
     model.estimator = options.estimator;

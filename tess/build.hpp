@@ -49,7 +49,8 @@ struct BuildReport {
 using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
 
 /// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
-/// is exceeded, UsageError when the point that names a region lies in none, or two of them in the same. The result does not depend on the order of the site's rows (R6).
+/// is exceeded, UsageError when the point that names a region lies in none, or two of them in the same. The result does
+/// not depend on the order of the site's rows (R6).
 Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
             const Progress& progress = {});
 

@@ -11,6 +11,7 @@
 #include "tess/box_clip.hpp"
 #include "tess/insertion_rule.hpp"
 #include "tess/mesh_walk.hpp"
+#include "tess/model_bounds.hpp"
 #include "tess/point_grid.hpp"
 #include "tess/quality.hpp"
 
@@ -126,7 +127,7 @@ class RegionLabels {
                 const std::int32_t next = mesh_.neighbours[cells[i]][k];
                 const auto neighbour = static_cast<std::uint32_t>(next);
                 if (next >= 0 && component[neighbour] < 0 && table_.fault[neighbour] < 0 &&
-                    table_.above[neighbour] == 0 && open(cells[i], k)) {
+                    table_.beyond[neighbour] == 0 && open(cells[i], k)) {
                     component[neighbour] = table_.region_count;
                     cells.push_back(neighbour);
                 }
@@ -172,7 +173,7 @@ std::int32_t region_at(const Vec3& p, MeshWalk& walk, const TetMesh& mesh, const
     std::vector<std::uint32_t> open;
     std::set<std::uint32_t> seen;
     const auto reach = [&](std::uint32_t cell) {
-        if (table.fault[cell] < 0 && table.above[cell] == 0 && seen.insert(cell).second) {
+        if (table.fault[cell] < 0 && table.beyond[cell] == 0 && seen.insert(cell).second) {
             open.push_back(cell);
         }
     };
@@ -267,15 +268,16 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
     table.region.assign(n, -1);
     table.fault.resize(n);
     table.in_extent.resize(n);
-    table.above.resize(n);
+    table.beyond.resize(n);
     table.reason.resize(n);
     table.radius_edge.resize(n);
     table.aspect.resize(n);
     table.dihedral_min_deg.resize(n);
     Explainer explain(model, mesh);
     const FaultProximity faults(model.faults);
-    const auto is_topography = [&](std::int32_t f) {
-        return model.faults[static_cast<std::size_t>(f)].sheet.kind == SurfaceKind::topography;
+    const ModelBounds bounds(model.domain, faults);
+    const auto bounds_model = [&](std::int32_t f) {
+        return f >= 0 && is_bound(model.faults[static_cast<std::size_t>(f)].sheet.kind);
     };
     for (std::size_t c = 0; c < n; ++c) {
         const CellPoints points = corners(mesh, mesh.cells[c]);
@@ -289,9 +291,8 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
         }
         table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
         const Vec3 centroid = 0.25 * (points[0] + points[1] + points[2] + points[3]);
-        table.above[c] =
-            (table.fault[c] >= 0 && is_topography(table.fault[c])) || is_above_ground(faults, centroid) ? 1 : 0;
-        table.in_extent[c] = table.above[c] == 0 && model.domain.extent.contains(centroid);
+        table.beyond[c] = bounds_model(table.fault[c]) || bounds.excludes(centroid) ? 1 : 0;
+        table.in_extent[c] = table.beyond[c] == 0 && model.domain.extent.contains(centroid);
     }
     RegionLabels(model, mesh, table).run();
     name_regions(model, mesh, table);

@@ -18,9 +18,10 @@ namespace terratet {
 struct CellTable {
     std::vector<std::int32_t> region;     ///< fault block, 0…; −1 for gap cells and cells outside the extent
     std::vector<std::int32_t> fault;      ///< fault whose gap the cell fills; −1 otherwise
-    std::vector<std::uint8_t> in_extent;  ///< 1 when the centroid lies in the extent, and not above the topography
-    std::vector<std::uint8_t> above;      ///< 1 above the topography, and in its gap: no output has such cells
-    std::vector<Reason> reason;           ///< why it was left bad; none for good cells
+    std::vector<std::uint8_t> in_extent;  ///< 1 when the centroid lies in the extent, and not beyond
+    std::vector<std::uint8_t> beyond;  ///< 1 above the topography, outside the outline of the domain, and in the gaps
+                                       ///< of both: no output has such cells
+    std::vector<Reason> reason;        ///< why it was left bad; none for good cells
     std::vector<float> radius_edge;
     std::vector<float> aspect;
     std::vector<float> dihedral_min_deg;

@@ -32,7 +32,7 @@ struct CollapseReport {
     double sheet_area = 0;          ///< of the faults themselves: as much, but for bends, unless a fault has holes now
     std::vector<Vec3> apart;  ///< places on the faults where the sheets could not meet: thin cells stay on the − side
     std::vector<Vec3> aside;  ///< places where, besides, the facets stay off the surface by half the fault's width
-    Conformity conformity;    ///< with what lies above the topography
+    Conformity conformity;    ///< with what lies above the ground and outside the outline
 };
 
 /// A model's mesh with its faults collapsed, in the shape that writers take.
@@ -47,16 +47,16 @@ struct CollapsedModel {
 };
 
 enum class Collapsing {
-    ground,  ///< the topography alone, at which every output ends; faults and horizons keep their gaps
+    bounds,  ///< topography and domain alone, at which every output ends; faults and horizons keep their gaps
     all,
 };
 
-/// What lies above the topography is not in the result. `mesh` and `cells` are the model's own. O(n log n); as many
-/// passes as there are rounds of giving up, few.
+/// What lies above the ground and outside the outline is not in the result. `mesh` and `cells` are the model's own. O(n
+/// log n); as many passes as there are rounds of giving up, few.
 CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
                                Collapsing which = Collapsing::all);
 
-/// Is there a topography to end at?
-bool has_ground(const Model& model);
+/// Is there a topography, or a domain's wall, to end at?
+bool has_bounds(const Model& model);
 
 }  // namespace terratet

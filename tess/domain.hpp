@@ -11,12 +11,14 @@
 
 #include "tess/frame.hpp"
 #include "tess/geometry.hpp"
+#include "tess/outline.hpp"
 
 namespace terratet {
 
 struct Domain {
-    Box3 extent;  ///< what the user asked about; exported clipped to it or flagged in_extent
-    Box3 hull;    ///< the extent without faults; grown by hull_margin() with them
+    Box3 extent;      ///< what the user asked about; exported clipped to it or flagged in_extent
+    Box3 hull;        ///< the extent without faults; grown by hull_margin() with them
+    Rings outline{};  ///< what bounds the model in plan; none: the extent alone
 
     friend bool operator==(const Domain&, const Domain&) = default;
 };

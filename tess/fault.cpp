@@ -30,6 +30,9 @@ void validate(const FaultOptions& options, double l_min) {
                          ": the seeds of a pair must be nearer to each other than to the next pair; lower "
                          "--fault-width");
     }
+    if (options.refine && options.mode != FaultMode::paired) {
+        throw UsageError("--fault-refine needs --fault-mode paired: triangles of unequal size are hard to certify");
+    }
     if (!(options.snap <= 0.5 * spacing)) {
         throw UsageError("fault snap " + short_text(options.snap) + " exceeds half the fault spacing " +
                          short_text(spacing) + ": rims would move farther than triangles are long; lower --fault-snap");
@@ -58,9 +61,10 @@ double hull_margin(const FaultOptions& options, double l_min) {
 }
 
 FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
-                                double l_min, const FaultOptions& options, const Progress& progress) {
+                                double l_min, const FaultOptions& options, const Progress& progress,
+                                std::span<const Vec3> samples) {
     validate(options, l_min);
-    return FaultPreparer(surfaces, extent, frame, FaultScale(options, l_min), options, progress).run();
+    return FaultPreparer(surfaces, extent, frame, FaultScale(options, l_min), options, progress, samples).run();
 }
 
 }  // namespace terratet

@@ -27,6 +27,7 @@
 ///      areas in its account add up: in = used + trimmed + outside + refused.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct Fault {
     double width = 0;              ///< ε, the distance between the two seeds of a pair in paired mode; smaller with s
     double covering_radius = 0;    ///< ρ: no point of sheet or margin is farther from a base point
     double protection_radius = 0;  ///< r_p, the factor for bent surfaces included
+    bool refined = false;          ///< for samples: r_p is smaller where its triangles are (FaultOptions::refine)
 
     friend bool operator==(const Fault&, const Fault&) = default;
 };
@@ -68,6 +70,7 @@ struct FaultOptions {
                          ///< end on it; 0: s/20
     std::uint64_t max_seeds = 2'000'000;  ///< over all faults: refuses instead of exhausting the memory
     FaultMode mode = FaultMode::paired;
+    bool refine = false;  ///< finer triangles, down to s/8, where samples come near, so that more of these may stay
 };
 
 /// What became of one input surface (F4).
@@ -107,9 +110,10 @@ double hull_margin(const FaultOptions& options, double l_min);
 /// Cleans, extends, cuts, remeshes and seeds. Never throws for bad geometry: a surface that cannot be used is refused
 /// with its reason. Result independent of the order of `surfaces`; positions snapped to the frame. Throws Error when
 /// max_seeds would be exceeded, UsageError for lengths that contradict each other (width above spacing, negative, not
-/// finite). Roughly 0.5 ms a triangle.
+/// finite; refine in exact mode). `samples` are what refine makes room for. Roughly 0.5 ms a triangle.
 /// \pre All coordinates are acceptable (geometry.hpp) and local to `frame`; extent is not empty; l_min > 0.
 FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
-                                double l_min, const FaultOptions& options = {}, const Progress& progress = {});
+                                double l_min, const FaultOptions& options = {}, const Progress& progress = {},
+                                std::span<const Vec3> samples = {});
 
 }  // namespace terratet

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "tess/error.hpp"
+#include "tess/fault_approach.hpp"
 #include "tess/fault_clip.hpp"
 #include "tess/fault_margin.hpp"
 #include "tess/fault_measure.hpp"
@@ -215,14 +216,16 @@ Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& fr
 }  // namespace
 
 FaultPreparer::FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
-                             const FaultScale& scale, const FaultOptions& options, const Progress& progress)
+                             const FaultScale& scale, const FaultOptions& options, const Progress& progress,
+                             std::span<const Vec3> samples)
     : surfaces_(surfaces),
       extent_(extent),
       limit_(extent.grown(scale.reach)),
       frame_(frame),
       scale_(scale),
       options_(options),
-      progress_(progress) {}
+      progress_(progress),
+      samples_(samples) {}
 
 FaultPreparation FaultPreparer::run() {
     repair();
@@ -377,8 +380,9 @@ void FaultPreparer::check_budget() const {
 void FaultPreparer::extend(std::uint32_t number) {
     Candidate& candidate = candidates_[number];
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool wall = candidate.surface->kind == SurfaceKind::domain;  // ends at the next one, however near a face
     for (const FaultMesh& part : candidate.active ? candidate.repaired.parts : std::vector<FaultMesh>{}) {
-        for (const double snap : {scale_.spacing, 0.0, -infinity}) {
+        for (const double snap : {wall ? 0.0 : scale_.spacing, 0.0, -infinity}) {
             FaultMesh extended = extended_across(part, extent_, snap, scale_.reach, scale_.spacing);
             const bool last = snap == -infinity;
             if (last || !crosses_itself(extended)) {
@@ -401,6 +405,9 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
     const FaultComplex sheets = active_sheets();
+    if (options_.refine) {
+        refine_near(samples_, sheets, sizes);
+    }
     std::size_t coarse = 0;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
     for (int halving = 0;; ++halving) {
@@ -481,7 +488,13 @@ void FaultPreparer::cut() {
                 sheets.insert(sheets.end(), candidate.sheets.begin(), candidate.sheets.end());
             }
         }
+        const std::vector<Sheet> before = sheets;
         extend_to_neighbours(sheets, scale_.snap);
+        for (std::size_t i = 0; i < sheets.size(); ++i) {
+            if (candidates_[sheets[i].surface].surface->kind == SurfaceKind::domain) {
+                sheets[i] = before[i];  // walls end on each other as they are
+            }
+        }
         cut_ = cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap);
         if (cut_.tangled) {
             refuse(candidates_[*cut_.tangled],
@@ -630,10 +643,16 @@ bool FaultPreparer::seal(Pass& pass) {
     std::vector<Fault> faults;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
+        if (candidates_[k].surface->kind == SurfaceKind::domain) {
+            continue;  // walls bar nothing; more seeds at their corners would be in the way when they are collapsed
+        }
         if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
             faults.push_back(std::move(piece.fault));
             numbers.push_back(k);
         }
+    }
+    if (faults.empty()) {
+        return true;
     }
     FaultSeal sealed = seal_faults(faults, extent_.grown(scale_.hull), frame_);
     if (refuse_leaking(sealed.open, numbers)) {
@@ -723,6 +742,7 @@ FaultPreparer::Piece FaultPreparer::piece_of(const Pass& pass, std::uint32_t num
     fault.seeds = pass.seeded.seeds[number];
     fault.covering_radius = pass.seeded.covering_radius[number];
     fault.protection_radius = pass.seeded.protection_radius[number];
+    fault.refined = options_.refine;
     return piece;
 }
 

@@ -5,6 +5,7 @@
 /// Internal: the steps from surfaces to faults, in their order, and who is refused on the way.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct FaultScale {
 class FaultPreparer {
   public:
     FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, const FaultScale& scale,
-                  const FaultOptions& options, const Progress& progress);
+                  const FaultOptions& options, const Progress& progress, std::span<const Vec3> samples);
 
     FaultPreparation run();
 
@@ -99,6 +100,7 @@ class FaultPreparer {
     FaultScale scale_;
     const FaultOptions& options_;
     const Progress& progress_;
+    std::span<const Vec3> samples_;
     std::vector<Candidate> candidates_;
     CutSheets cut_;
 };

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "tess/fault_approach.hpp"
 #include "tess/fault_rims.hpp"
 #include "tess/triangle_grid.hpp"
 #include "tess/triangle_tree.hpp"
@@ -18,7 +19,7 @@ struct FaultProximity::Impl {
     FaultRims rims;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
-    std::vector<double> squared_protection;  ///< of each fault
+    std::vector<double> squared_protection;  ///< of each triangle in the zone
     std::set<std::pair<std::int32_t, std::int32_t>> meeting;
 };
 
@@ -33,9 +34,11 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
                 triangles.push_back({part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]});
             }
         }
-        reach.resize(triangles.size(), fault.protection_radius);
+        for (const double radius : protection_radii(faults, static_cast<std::size_t>(index))) {
+            reach.push_back(radius);
+            impl_->squared_protection.push_back(radius * radius);
+        }
         impl_->fault_of.resize(triangles.size(), index);
-        impl_->squared_protection.push_back(fault.protection_radius * fault.protection_radius);
         impl_->sheets.emplace_back(fault.sheet);
     }
     impl_->rims = FaultRims(faults);
@@ -69,9 +72,8 @@ bool FaultProximity::empty() const {
 
 std::int32_t FaultProximity::protecting_fault(const Vec3& p) const {
     for (const std::uint32_t i : impl_->zone.candidates(p)) {
-        const std::int32_t fault = impl_->fault_of[i];
-        if (impl_->zone.squared_distance_to(i, p) < impl_->squared_protection[static_cast<std::size_t>(fault)]) {
-            return fault;
+        if (impl_->zone.squared_distance_to(i, p) < impl_->squared_protection[i]) {
+            return impl_->fault_of[i];
         }
     }
     return -1;

@@ -25,8 +25,8 @@ class FaultProximity {
     [[nodiscard]] std::span<const Fault> faults() const;
     [[nodiscard]] bool empty() const;
 
-    /// The first fault (smallest index) whose sheet or margin is nearer to p than its protection radius; −1 when none.
-    /// Constant time far from all faults.
+    /// The first fault (smallest index) whose sheet or margin is nearer to p than its protection radius, which is
+    /// smaller where its triangles are smaller than the spacing; −1 when none. Constant time far from all faults.
     [[nodiscard]] std::int32_t protecting_fault(const Vec3& p) const;
 
     /// Does the closed segment meet fault f's sheet? Exact predicates. O(log n).

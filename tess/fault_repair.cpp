@@ -191,6 +191,9 @@ RepairedFault repair_fault(const Surface& surface, double tolerance) {
                      [](const FaultMesh& a, const FaultMesh& b) { return area(a) > area(b); });
     Vec3 reference;
     for (FaultMesh& part : result.parts) {
+        if (surface.kind == SurfaceKind::domain) {
+            break;  // its walls face out as they come
+        }
         const Vec3 facing = total_area_vector(part);
         if (reference == Vec3{} ? !faces_forward(facing) : dot(facing, reference) < 0) {
             flip(part);

@@ -10,7 +10,7 @@
 namespace terratet {
 
 const char* to_string(SurfaceKind kind) {
-    constexpr const char* names[] = {"fault", "horizon", "topography"};
+    constexpr const char* names[] = {"fault", "horizon", "topography", "domain"};
     return names[static_cast<std::size_t>(kind)];
 }
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Triangulated surfaces as they come from files: faults, horizons, topography.
+/// Triangulated surfaces as they come from files: faults, horizons, topography, the domain.
 
 #include <span>
 #include <string>
@@ -12,11 +12,17 @@
 
 namespace terratet {
 
-/// All kinds part regions. A fault bars estimation as well; topography has nothing above.
-enum class SurfaceKind { fault, horizon, topography };
+/// All kinds part regions. A fault bars estimation as well; topography has nothing above. A domain as read is a polygon
+/// in plan, triangulated; prepared it is the walls over the polygon's edges (tess/outline.hpp), with nothing beyond.
+enum class SurfaceKind { fault, horizon, topography, domain };
 
-/// "fault", "horizon", "topography".
+/// "fault", "horizon", "topography", "domain".
 const char* to_string(SurfaceKind kind);
+
+/// Does the model end at surfaces of this kind? Their normals point out of it.
+constexpr bool is_bound(SurfaceKind kind) {
+    return kind == SurfaceKind::topography || kind == SurfaceKind::domain;
+}
 
 struct Surface {
     std::string name;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tess/cells.hpp"
+#include "tess/fault_approach.hpp"
 #include "tess/quality.hpp"
 
 namespace terratet {
@@ -65,21 +66,21 @@ class Sweep {
     std::vector<Vec3> points_;
 };
 
-double distance_to(const Surface& surface, const Vec3& p) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Triangle& t : surface.triangles) {
-        const Vec3 q =
-            closest_point_on_triangle(p, surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
-        nearest = std::min(nearest, squared_distance(p, q));
+/// By brute force over all triangles.
+bool in_protection_zone(const Model& model, const std::vector<std::vector<double>>& radii, const Vec3& p) {
+    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        std::size_t next = 0;
+        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {
+            for (const Triangle& t : part->triangles) {
+                const auto& v = part->vertices;
+                const Vec3 q = closest_point_on_triangle(p, v[t[0]], v[t[1]], v[t[2]]);
+                if (distance(p, q) < radii[f][next++] * (1 + 1e-9)) {
+                    return true;
+                }
+            }
+        }
     }
-    return std::sqrt(nearest);
-}
-
-bool in_protection_zone(const Model& model, const Vec3& p) {
-    return std::ranges::any_of(model.faults, [&](const Fault& fault) {
-        return std::min(distance_to(fault.sheet, p), distance_to(fault.margin, p)) <
-               fault.protection_radius * (1 + 1e-9);
-    });
+    return false;
 }
 
 class Verifier {
@@ -138,13 +139,17 @@ class Verifier {
         Offenders offenders;
         const Sweep kept(kept_);
         std::size_t dropped = 0;
+        std::vector<std::vector<double>> radii;
+        for (std::size_t f = 0; f < model_.faults.size(); ++f) {
+            radii.push_back(protection_radii(model_.faults, f));
+        }
         for (const Vec3& p : model_.samples.positions) {
             if (!model_.domain.extent.contains(p) || kept.contains(p)) {
                 continue;
             }
             ++dropped;
             const auto any = [](const Vec3&) { return true; };
-            if (!kept.any_of(p, resolution_.l_min(p), any) && !in_protection_zone(model_, p)) {
+            if (!kept.any_of(p, resolution_.l_min(p), any) && !in_protection_zone(model_, radii, p)) {
                 offenders.add("sample at " + show(model_, p));
             }
         }

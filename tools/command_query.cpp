@@ -9,6 +9,7 @@
 #include "io/model_store.hpp"
 #include "io/read_points.hpp"
 #include "tess/error.hpp"
+#include "tess/model_bounds.hpp"
 #include "tools/command.hpp"
 #include "tools/session.hpp"
 #include "tools/site_options.hpp"
@@ -52,6 +53,7 @@ class Query final : public Command {
         const EstimatorPlan plan =
             estimator_.empty() ? parse_estimator_plan(model.estimator) : EstimatorPlan(parse_estimator(estimator_));
         const ModelEstimator estimator(model, faults, plan, {}, {.uncertainty = !no_deviation_});
+        const ModelBounds bounds(model.domain, faults);
         for (std::size_t p = 0; p < model.properties.size(); ++p) {
             if (has_samples(model, p)) {
                 asked_.push_back(p);
@@ -59,7 +61,7 @@ class Query final : public Command {
         }
         print(header(model, points.table));
         for (std::size_t begin = 0; begin < points.positions.size(); begin += batch_size) {
-            print(rows(model, points, begin, std::min(begin + batch_size, points.positions.size()), estimator));
+            print(rows(model, points, begin, std::min(begin + batch_size, points.positions.size()), estimator, bounds));
         }
         if (std::fflush(stdout) != 0) {
             throw Error("standard output cannot be written to");
@@ -101,13 +103,15 @@ class Query final : public Command {
         return row + "\n";
     }
 
-    /// In the input's order; places that could not be read have no values.
+    /// In the input's order; places that could not be read, are above the ground or outside the domain have no values.
     [[nodiscard]] std::string rows(const Model& model, const PointTable& points, std::size_t begin, std::size_t end,
-                                   const ModelEstimator& estimator) const {
+                                   const ModelEstimator& estimator, const ModelBounds& bounds) {
         std::vector<ValueQuery> queries;
         std::vector<std::size_t> query_of(end - begin, none);
         for (std::size_t row = begin; row < end; ++row) {
-            if (is_finite(points.positions[row])) {
+            const bool modelled = is_finite(points.positions[row]) && !bounds.excludes(points.positions[row]);
+            excluded_ += is_finite(points.positions[row]) && !modelled ? 1 : 0;
+            if (modelled) {
                 query_of[row - begin] = queries.size();
                 queries.push_back({points.positions[row], -1, 0});
             }
@@ -159,6 +163,9 @@ class Query final : public Command {
         for (const auto& note : diagnostics.notes) {
             spdlog::info("{}", note);
         }
+        if (excluded_ > 0) {
+            spdlog::info("{} places are above the ground or outside the domain: no value", excluded_);
+        }
         const auto kinds = estimator.estimates({});
         for (const std::size_t p : asked_) {
             const Property& property = model.properties[p];
@@ -177,6 +184,7 @@ class Query final : public Command {
     std::string estimator_;
     std::string crs_;
     std::uint64_t threads_ = 0;
+    std::size_t excluded_ = 0;
     bool probabilities_ = false;
     bool no_deviation_ = false;
     bool quiet_ = false;
@@ -190,7 +198,8 @@ CommandEntry query_command() {
             "MODEL.gpkg value POINTS",
             "Estimates each property from the model's samples at the places of a table with x, y, z, or - for standard "
             "input. CSV on standard output: a row each in the same order, the table's columns, then NAME, NAME_sd and "
-            "NAME_extrapolation of each property, empty where there is no value.",
+            "NAME_extrapolation of each property, empty where there is no value: also above the ground and outside the "
+            "domain.",
             {"terratet query site.gpkg value places.csv > values.csv",
              "printf 'x,y,z\\n525500,6792000,-200\\n' | terratet query site.gpkg value -"},
             [] { return std::make_unique<Query>(); }};

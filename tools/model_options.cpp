@@ -242,6 +242,10 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "LENGTH",
               "faults that stop this short of another end on it; by default a twentieth of the spacing",
               &a.fault_snap},
+             {{"fault-refine"},
+              "",
+              "finer points on faults where samples come near, so that more of these stay; paired mode",
+              &a.fault_refine},
              {{"estimator"},
               "SPEC",
               "natural (default), laplace, linear, idw, kriging, nearest, with options as in idw:power=3; see "
@@ -313,6 +317,7 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     options.faults.width = positive_length("--fault-width", a.fault_width, unit);
     options.faults.snap = positive_length("--fault-snap", a.fault_snap, unit);
     options.faults.mode = fault_mode(a.fault_mode);
+    options.faults.refine = a.fault_refine;
     options.refine.max_vertices = a.max_vertices;
     options.estimator = parse_estimator(a.estimator).to_string();
     return options;

@@ -33,6 +33,7 @@ struct ModelArguments {
     std::string fault_spacing;
     std::string fault_width;
     std::string fault_snap;
+    bool fault_refine = false;
     std::string estimator = EstimatorSpec{}.name;
     std::uint64_t max_vertices = RefineOptions{}.max_vertices;
 };

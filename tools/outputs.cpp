@@ -131,11 +131,11 @@ Written write_outputs(const Model& model, const Meshed* meshed, const std::vecto
             }
             const bool all =
                 !model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format));
-            if (!all && !has_ground(model)) {
+            if (!all && !has_bounds(model)) {
                 written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
                 continue;
             }
-            const Collapsing which = all ? Collapsing::all : Collapsing::ground;
+            const Collapsing which = all ? Collapsing::all : Collapsing::bounds;
             if (!collapsed.contains(which)) {
                 collapsed.emplace(which, collapse_checked(model, *meshed, which));
                 written.collapse = all || !written.collapse ? collapsed.at(which).report : written.collapse;

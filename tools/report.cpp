@@ -9,6 +9,7 @@
 
 #include "io/output_file.hpp"
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
 #include "tess/quality.hpp"
 #include "tools/version.hpp"
 
@@ -73,10 +74,32 @@ Json faults_json(const std::vector<FaultAccount>& accounts) {
     return faults;
 }
 
-Json preprocess_json(const BuildReport& report) {
+/// The samples that left the tessellation for faults, each with the fault.
+Json near_faults_json(const BuildReport& report, const Model& model) {
+    Json list = Json::array();
+    const FaultProximity faults(model.faults);
+    for (const std::uint32_t i : report.density.near_faults) {
+        const Vec3& p = model.samples.positions[i];
+        const Vec3 at = model.frame.to_world(p);
+        Json sample = Json::object();
+        if (const std::int32_t hole = model.samples.borehole[i]; hole >= 0) {
+            sample["borehole"] = model.boreholes[static_cast<std::size_t>(hole)].id;
+            sample["depth"] = model.samples.depth[i];
+        }
+        sample["position"] = {at.x, at.y, at.z};
+        if (const std::int32_t fault = faults.protecting_fault(p); fault >= 0) {
+            sample["fault"] = model.faults[static_cast<std::size_t>(fault)].name;
+        }
+        list.push_back(std::move(sample));
+    }
+    return list;
+}
+
+Json preprocess_json(const BuildReport& report, const Model& model) {
     return {{"samples_kept", report.density.kept.size()},
             {"samples_deleted", report.density.deleted},
             {"samples_near_faults", report.density.near_faults.size()},
+            {"near_faults", near_faults_json(report, model)},
             {"seeds", report.seeds},
             {"domain_vertices", report.domain_vertices},
             {"coincident", report.coincident},
@@ -208,7 +231,7 @@ std::string report_text(const RunRecord& record) {
             options[key] = value;
         }
         report["defaults"] = defaults;
-        report["preprocess"] = preprocess_json(build.report);
+        report["preprocess"] = preprocess_json(build.report, *record.model);
         report["faults"] = faults_json(build.report.faults);
         report["initial"] = initial_json(build.report.initial);
         report["refine"] = refine_json(build.report.refine);

@@ -20,6 +20,9 @@ std::vector<std::string> input_paths(const SiteArguments& site) {
          {&site.boreholes, &site.surveys, &site.logs, &site.samples, &site.faults, &site.surfaces, &site.topography}) {
         paths.insert(paths.end(), list->begin(), list->end());
     }
+    if (!site.domain.empty()) {
+        paths.push_back(site.domain);
+    }
     return paths;
 }
 

@@ -89,6 +89,7 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               "a horizon, as a fault or a raster: it parts regions, and bars nothing",
               &a.surfaces},
              {{"topography"}, "FILE", "the ground, a raster mostly: nothing is modelled above it", &a.topography},
+             {{"domain"}, "FILE", "a polygon in plan: nothing is modelled outside it", &a.domain},
          }},
         {"What they mean",
          {
@@ -147,8 +148,9 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     add(a.faults, inputs.faults);
     add(a.surfaces, inputs.surfaces);
     add(a.topography, inputs.topography);
+    add(a.domain.empty() ? std::vector<std::string>{} : std::vector{a.domain}, inputs.domain);
     for (auto* sources : {&inputs.boreholes, &inputs.surveys, &inputs.logs, &inputs.samples, &inputs.faults,
-                          &inputs.surfaces, &inputs.topography}) {
+                          &inputs.surfaces, &inputs.topography, &inputs.domain}) {
         for (auto& source : *sources) {
             all.push_back(&source);
         }

@@ -21,6 +21,7 @@ struct SiteArguments {
     std::vector<std::string> faults;
     std::vector<std::string> surfaces;
     std::vector<std::string> topography;
+    std::string domain;
     std::vector<std::string> properties;
     std::vector<std::string> columns;
     std::string source_crs;

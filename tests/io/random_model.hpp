@@ -225,10 +225,20 @@ struct RandomModel {
             model.region_names.push_back({place(), odd_name(random)});
         }
         model.density = random.below(2) ? DensityMode::paper : DensityMode::canonical;
-        model.fault_options = {random(0, 10), random(0, 1), random(0, 5), random.below(1ULL << 63),
-                               random.below(2) == 0 ? FaultMode::paired : FaultMode::exact};
+        model.fault_options = {random(0, 10),
+                               random(0, 1),
+                               random(0, 5),
+                               random.below(1ULL << 63),
+                               random.below(2) == 0 ? FaultMode::paired : FaultMode::exact,
+                               random.below(2) == 0};
+        for (Fault& f : model.faults) {
+            f.refined = model.fault_options.refine;
+        }
         if (random.below(4)) {  // else empty: infinities
-            model.domain = {{place(), place()}, {place(), place()}};
+            model.domain = {{place(), place()}, {place(), place()}, {}};
+            for (std::uint64_t rings = random.below(3); rings > 0; --rings) {
+                model.domain.outline.push_back({place(), place(), place()});
+            }
         }
         model.estimator = random.below(2) ? "idw:power=2:max_points=12" : odd_name(random);
     }
@@ -253,7 +263,7 @@ inline Model random_model(std::uint64_t seed) {
     r.add_boreholes();
     r.add_samples();
     for (std::uint64_t n = r.random.below(4); n > 0; --n) {
-        r.model.surfaces.push_back(r.surface(static_cast<SurfaceKind>(r.random.below(3))));
+        r.model.surfaces.push_back(r.surface(static_cast<SurfaceKind>(r.random.below(4))));
     }
     r.add_faults();
     r.add_vertices();

@@ -10,6 +10,7 @@ import unittest
 from terratet import ROOT, Case, twin_inputs
 
 CHECKER = ROOT / "tests" / "readers" / "check_ground.py"
+BOUNDS = ROOT / "tests" / "readers" / "check_bounds.py"
 VTK_PYTHON = "/usr/bin/python3"  # Debian's python3-vtk9 and python3-openvdb
 LO, HI = (525130, 6791500, -990), (525870, 6792500, 60)
 
@@ -74,6 +75,10 @@ class Layers(Case):
         result = subprocess.run([VTK_PYTHON, CHECKER, self.folder / "ground.asc", self.folder / "m.vtu", self.folder / "m.vdb"],
                                 capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        result = subprocess.run([VTK_PYTHON, BOUNDS, "--ground", self.folder / "ground.asc", self.folder / "m.glb"],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("m.glb domain boundary above", result.stdout)
         with open(self.folder / "m.csv", newline="") as table:
             rows = list(csv.DictReader(table))
         self.assertGreater(len(rows), 1000)

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: how near other vertices may come to a fault, place by place. Where its triangles are smaller than the
+/// spacing, r_p = √(ρ² + ε²/4) is smaller as well, with the ρ and ε of the place.
+
+#include <span>
+#include <vector>
+
+#include "tess/fault.hpp"
+#include "tess/fault_complex.hpp"
+#include "tess/size_field.hpp"
+
+namespace terratet {
+
+/// Asks for triangles small enough, down to an eighth of the spacing, that each sample nearer to the complex than r_p
+/// may stay.
+void refine_near(std::span<const Vec3> samples, const FaultComplex& complex, SizeField& sizes);
+
+/// The protection radius of each triangle of a fault, its sheet's and then its margin's: the fault's own, or less where
+/// the triangle's corners are base points that are nearer together. It is the fault's own where the seeds of another
+/// fault are near: that these do not let edges slip through was seen to with that radius.
+std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t fault);
+
+}  // namespace terratet

@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,6 @@
 #include <utility>
 
 #include "interp/scan_conversion.hpp"
-#include "tess/cells.hpp"
 
 namespace terratet {
 namespace {
@@ -199,38 +199,36 @@ double dominant_class(const std::array<double, 4>& weight, const std::array<doub
     return value[best];
 }
 
-/// Weights of the corners on the side of the nearest one, renormalised (DESIGN §4.4). Distances are true ones.
-std::array<double, 4> own_side_weights(const PlacedCell& cell, const Vec3& p, const Vec3& spacing,
-                                       std::span<const Vertex> vertices) {
-    std::array<double, 4> weight = barycentric(cell.shape, p);
-    std::size_t nearest = 0;
-    double nearest_distance = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3 d = p - cell.shape.corner[k];
-        const double squared = squared_length({d.x * spacing.x, d.y * spacing.y, d.z * spacing.z});
-        if (squared < nearest_distance) {
-            nearest = k;
-            nearest_distance = squared;
-        }
-    }
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const bool same_side = vertices[cell.vertex[k]].side == vertices[cell.vertex[nearest]].side;
-        weight[k] = same_side ? std::max(weight[k], 0.0) : 0.0;
-        sum += weight[k];
-    }
-    if (!(sum > 1e-12)) {
-        weight = {};
-        weight[nearest] = sum = 1;
-    }
-    for (double& w : weight) {
-        w /= sum;
-    }
-    return weight;
-}
-
 double weighted_mean(const std::array<double, 4>& weight, const std::array<double, 4>& value) {
     return weight[0] * value[0] + weight[1] * value[1] + weight[2] * value[2] + weight[3] * value[3];
+}
+
+/// A gap cell: each voxel from the vertices that it sees.
+void fill_own_sides(const Job& job, std::uint32_t number, const PlacedCell& cell,
+                    const std::array<std::int64_t, 3>& first_voxel, float* tile) {
+    const auto& corners = job.field.mesh->cells[number];
+    std::array<std::size_t, 4> sorted{};  // where the mesh's corners are among the placed cell's
+    for (std::size_t k = 0; k < 4; ++k) {
+        sorted[k] = static_cast<std::size_t>(std::find(cell.vertex.begin(), cell.vertex.end(), corners[k]) -
+                                             cell.vertex.begin());
+    }
+    fill_voxels(cell.shape, tile, [&](const Vec3& voxel) {
+        Vec3 p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int axis = static_cast<int>(k);
+            p[axis] = job.lattice.origin[axis] +
+                      job.lattice.spacing[axis] * (voxel[axis] + static_cast<double>(first_voxel[k]));
+        }
+        const std::array<double, 4> plain = barycentric(cell.shape, voxel);
+        const VertexWeights own = job.field.sides->weights(
+            number, p, {plain[sorted[0]], plain[sorted[1]], plain[sorted[2]], plain[sorted[3]]});
+        std::array<double, 4> value{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            value[k] = job.field.vertex_values[own.vertices[k]];
+        }
+        return job.field.categorical && !std::isnan(own.weights[0]) ? dominant_class(own.weights, value)
+                                                                    : weighted_mean(own.weights, value);
+    });
 }
 
 PlacedCell place(const Job& job, std::uint32_t cell, const std::array<std::int64_t, 3>& first_voxel,
@@ -270,16 +268,11 @@ void fill_tile(const Job& job, std::span<const std::uint32_t> cells, const std::
         if (cell.shape.empty()) {
             continue;
         }
-        const bool gap = !field.vertices.empty() && gap_fault(field.mesh->cells[*it], field.vertices) >= 0;
-        const auto weights = [&](const Vec3& p) {
-            return gap ? own_side_weights(cell, p, job.lattice.spacing, field.vertices) : barycentric(cell.shape, p);
-        };
-        if (field.categorical) {
+        if (field.sides != nullptr && field.sides->concerns(*it)) {
+            fill_own_sides(job, *it, cell, first_voxel, values.data());
+        } else if (field.categorical) {
             fill_voxels(cell.shape, values.data(),
-                        [&](const Vec3& p) { return dominant_class(weights(p), cell.value); });
-        } else if (gap) {
-            fill_voxels(cell.shape, values.data(),
-                        [&](const Vec3& p) { return weighted_mean(weights(p), cell.value); });
+                        [&](const Vec3& p) { return dominant_class(barycentric(cell.shape, p), cell.value); });
         } else {
             fill_linear(cell, values.data());
         }
@@ -305,7 +298,6 @@ bool finish_tile(const LinearField& field, std::vector<float>& values) {
 void resample(const LinearField& field, const Lattice& lattice, TileSink& sink, const Progress& progress) {
     assert(field.mesh != nullptr && field.vertex_values.size() == field.mesh->points.size());
     assert(field.use_cell.empty() || field.use_cell.size() == field.mesh->cells.size());
-    assert(field.vertices.empty() || field.vertices.size() == field.mesh->points.size());
     const Job job{field, lattice, TileGrid(lattice), to_voxel_indices(field.mesh->points, lattice)};
     const Bins bins = bin_cells(job);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Tessellation to voxels by per-cell scan conversion: each cell's row spans are filled with its linear function, so the
-/// cost follows cells and voxels and no point is ever located (DESIGN §4.6).
+/// Tessellation to voxels by per-cell scan conversion: each cell's row spans are filled with its linear function, so
+/// the cost follows cells and voxels and no point is ever located (DESIGN §4.6).
 
 #include <array>
 #include <cstdint>
@@ -12,13 +12,14 @@
 
 #include "interp/lattice.hpp"
 #include "tess/model.hpp"
+#include "tess/own_side.hpp"
 #include "tess/progress.hpp"
 
 namespace terratet {
 
 /// A cubic brick of voxels, z fastest. Bricks at the lattice's end reach beyond it; those voxels are NaN.
 struct Tile {
-    static constexpr int edge = 64;  ///< voxels along each axis: 8 leaves of OpenVDB
+    static constexpr int edge = 64;    ///< voxels along each axis: 8 leaves of OpenVDB
     std::array<std::int64_t, 3> lo{};  ///< index of its first voxel, multiples of edge
     std::span<const float> values;     ///< edge³; NaN: no value. Index ((i·edge)+j)·edge+k
 };
@@ -35,9 +36,9 @@ struct LinearField {
     const TetMesh* mesh = nullptr;
     std::span<const double> vertex_values{};   ///< in the property's scale; NaN: the cell is left out
     std::span<const std::uint8_t> use_cell{};  ///< one per cell; empty: all
-    std::span<const Vertex> vertices{};        ///< when given, a gap cell takes its values from the voxel's own side
-    bool log10 = false;                      ///< write 10^value
-    bool categorical = false;                ///< write the class of the largest barycentric weight
+    const OwnSide* sides = nullptr;            ///< when given, a gap cell takes its values from the voxel's own side
+    bool log10 = false;                        ///< write 10^value
+    bool categorical = false;                  ///< write the class of the largest barycentric weight
 };
 
 /// Byte-identical at any thread count: a voxel on a common facet, edge or vertex belongs to the cell with the smallest

@@ -114,7 +114,7 @@ void describe(openvdb::MetaMap& meta, const Property& property) {
     }
 }
 
-openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const Lattice& lattice,
+openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const Lattice& lattice, const OwnSide& sides,
                                   const Progress& progress) {
     const Property& property = view.model.properties[p];
     std::vector<double> scaled = view.model.vertex_values.values[p];
@@ -122,7 +122,7 @@ openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const La
         value = to_scale(property, value);
     }
     LinearField field{&view.mesh, scaled};
-    field.vertices = view.model.vertices;
+    field.sides = &sides;
     field.log10 = property.scale == Scale::log10;
     field.categorical = property.kind == Kind::categorical;
     LeafSink sink;
@@ -152,9 +152,11 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     }
     names = distinct_names(std::move(names), {});
 
+    const FaultProximity faults(model.faults);
+    const OwnSide sides(view.mesh, view.cells.fault, faults);
     openvdb::GridPtrVec grids;
     for (std::size_t p = 0; p < names.size(); ++p) {
-        const auto grid = make_grid(view, p, lattice, options.progress);
+        const auto grid = make_grid(view, p, lattice, sides, options.progress);
         grid->setName(names[p]);
         grid->setTransform(make_transform(lattice, model.frame, options.local_origin));
         describe(*grid, model.frame, options.local_origin);

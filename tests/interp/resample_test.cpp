@@ -383,18 +383,18 @@ TEST_CASE("In a gap cell a voxel takes its own side's value: with 0 and 1 on the
     const TetMesh mesh = kuhn_mesh({3, 6, 6}, [&](const Node& n) {
         return Vec3{columns[static_cast<std::size_t>(n[0])], n[1] * 10.0 / 6, n[2] * 10.0 / 6};
     });
-    std::vector<Vertex> vertices(mesh.points.size());
     std::vector<double> f(mesh.points.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        const double x = mesh.points[v].x;
-        vertices[v].id = v;
-        vertices[v].position = mesh.points[v];
-        if (x == 4.5 || x == 5.5) {
-            vertices[v].role = Role::seed;
-            vertices[v].owner = 0;
-            vertices[v].side = x < 5 ? std::int8_t{-1} : std::int8_t{1};
-        }
-        f[v] = x < 5 ? 0 : 1;
+    for (std::size_t v = 0; v < f.size(); ++v) {
+        f[v] = mesh.points[v].x < 5 ? 0 : 1;
+    }
+    std::vector<Fault> faults(1);
+    faults[0].sheet.vertices = {{5, -1, -1}, {5, 11, -1}, {5, 11, 11}, {5, -1, 11}};
+    faults[0].sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    std::vector<std::int32_t> gap;
+    for (const auto& cell : mesh.cells) {
+        const auto side = [&](std::uint32_t v) { return mesh.points[v].x < 5; };
+        gap.push_back(std::all_of(cell.begin(), cell.end(), side) || std::none_of(cell.begin(), cell.end(), side) ? -1
+                                                                                                                  : 0);
     }
     const Box3 box{{0, 0, 0}, {10, 10, 10}};
     const Lattice lattice = node_lattice(box, 80);
@@ -402,13 +402,15 @@ TEST_CASE("In a gap cell a voxel takes its own side's value: with 0 and 1 on the
     const auto mixed = resample_dense(field, lattice);
     CHECK(std::count_if(mixed.begin(), mixed.end(), [](float v) { return v > 0.1F && v < 0.9F; }) > 10000);
 
-    field.vertices = vertices;
+    const FaultProximity proximity(faults);
+    const OwnSide sides(mesh, gap, proximity);
+    field.sides = &sides;
     const auto own = resample_dense(field, lattice);
     std::size_t wrong = 0;
     for_each_voxel(lattice, [&](const Vec3& p, std::size_t voxel) {
         wrong += own[voxel] != 0.0F && own[voxel] != 1.0F;
-        wrong += p.x <= 4.5 && own[voxel] != 0.0F;
-        wrong += p.x >= 5.5 && own[voxel] != 1.0F;
+        wrong += p.x < 5 && own[voxel] != 0.0F;
+        wrong += p.x > 5 && own[voxel] != 1.0F;
     });
     CHECK(wrong == 0);
     field.categorical = true;

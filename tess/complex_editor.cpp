@@ -85,6 +85,17 @@ bool ComplexEditor::present(const Triangle& t) const {
     });
 }
 
+std::vector<std::uint32_t> ComplexEditor::update_sizes() {
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+        if (const double size = field_.at(points_[v]); size != sizes_of_[v]) {
+            sizes_of_[v] = size;
+            changed.push_back(v);
+        }
+    }
+    return changed;
+}
+
 void ComplexEditor::move(std::uint32_t v, const Vec3& to) {
     points_[v] = to;
     if (!field_.uniform()) {

@@ -52,6 +52,9 @@ class ComplexEditor {
     /// All edges, ascending.
     [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges() const;
 
+    /// After the field has changed. Points that want another size now.
+    std::vector<std::uint32_t> update_sizes();
+
     void fix(std::uint32_t v) { fixed_[v] = 1; }
     void move(std::uint32_t v, const Vec3& to);
 

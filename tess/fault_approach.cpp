@@ -79,8 +79,8 @@ std::vector<Vec3> seeds_of_others(std::span<const Fault> faults, std::size_t fau
 
 }  // namespace
 
-void refine_near(std::span<const Vec3> samples, const FaultComplex& complex, SizeField& sizes) {
-    const double spacing = sizes.spacing();
+std::vector<WantedSize> places_near(std::span<const Vec3> samples, const FaultComplex& complex, double spacing) {
+    std::vector<WantedSize> places;
     const double reach = spacing / approach;
     std::vector<TriangleCorners> triangles;
     for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
@@ -88,21 +88,22 @@ void refine_near(std::span<const Vec3> samples, const FaultComplex& complex, Siz
     }
     const TriangleGrid grid(std::move(triangles), std::vector<double>(complex.triangles.size(), reach));
     for (const Vec3& p : samples) {
-        Vec3 nearest;
+        FinerPlace nearest;
         double least = reach * reach;
         for (const std::uint32_t t : grid.candidates(p)) {
             const TriangleCorners& c = grid.triangle(t);
             const Vec3 q = closest_point_on_triangle(p, c[0], c[1], c[2]);
             if (squared_distance(p, q) < least) {
                 least = squared_distance(p, q);
-                nearest = q;
+                nearest = {q, {complex.sheet[t]}};
             }
         }
         const double wanted = approach * std::sqrt(least);
         if (wanted < spacing && wanted >= finest * spacing) {
-            sizes.refine(nearest, wanted);
+            places.push_back({nearest, wanted});
         }
     }
+    return places;
 }
 
 std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t fault) {

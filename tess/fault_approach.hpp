@@ -10,13 +10,13 @@
 
 #include "tess/fault.hpp"
 #include "tess/fault_complex.hpp"
-#include "tess/size_field.hpp"
+#include "tess/fault_mesher.hpp"
 
 namespace terratet {
 
-/// Asks for triangles small enough, down to an eighth of the spacing, that each sample nearer to the complex than r_p
-/// may stay.
-void refine_near(std::span<const Vec3> samples, const FaultComplex& complex, SizeField& sizes);
+/// Where the complex wants triangles how small, down to an eighth of the spacing, that each sample nearer to it than
+/// r_p may stay.
+std::vector<WantedSize> places_near(std::span<const Vec3> samples, const FaultComplex& complex, double spacing);
 
 /// The protection radius of each triangle of a fault, its sheet's and then its margin's: the fault's own, or less where
 /// the triangle's corners are base points that are nearer together. It is the fault's own where the seeds of another

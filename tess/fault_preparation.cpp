@@ -14,7 +14,6 @@
 #include "tess/fault_clip.hpp"
 #include "tess/fault_margin.hpp"
 #include "tess/fault_measure.hpp"
-#include "tess/fault_remesh.hpp"
 #include "tess/fault_round.hpp"
 #include "tess/fault_row.hpp"
 #include "tess/seed_grid.hpp"
@@ -27,13 +26,11 @@ constexpr double tangle_limit = 5;      ///< area over that of the extent's face
 constexpr double most_dropped = 0.5;    ///< share of a fault that may be lost in repair
 constexpr double crumb = 0.5;           ///< in spacings: smaller parts go
 constexpr double alternative = 0.6;     ///< share of a fault that may run alongside another; in spacings, how near
-constexpr double zip = 0.15;            ///< in edge lengths: sheets nearer to each other than that become one
 constexpr double unseparated = 0.05;    ///< share of a fault that may stay so in paired mode
 constexpr double row_clearance = 0.6;   ///< in edge lengths: a margin row keeps that far from other surfaces
 constexpr double junction_zone = 0.45;  ///< in edge lengths: seeds nearer to a junction are its own
 constexpr double screened = 1.1;        ///< see leaks()
 constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
-constexpr std::size_t growth = 2;       ///< of the number of triangles by halvings, beyond which there are no more
 constexpr int exact_halvings = 1;       ///< against leaks in exact mode: triangles of unequal size are hard to certify
 constexpr double widest_exact = 1.5;    ///< radians: the seeds of right-angled neighbours would coincide
 
@@ -69,29 +66,6 @@ bool crosses_itself(const FaultMesh& mesh) {
     return !crossing_triangles(alone).empty();
 }
 
-/// Which connected piece each triangle belongs to.
-std::vector<std::uint32_t> pieces_of(const FaultComplex& complex) {
-    std::vector<std::uint32_t> parent(complex.points.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            v = parent[v] = parent[parent[v]];
-        }
-        return v;
-    };
-    for (const Triangle& t : complex.triangles) {
-        for (const std::uint32_t v : {t[1], t[2]}) {
-            const auto [low, high] = std::minmax({root(t[0]), root(v)});
-            parent[high] = low;
-        }
-    }
-    std::vector<std::uint32_t> piece;
-    for (const Triangle& t : complex.triangles) {
-        piece.push_back(root(t[0]));
-    }
-    return piece;
-}
-
 /// Triangles whose sides nothing but the seeds' spacing decides: not at a junction or rim, nor next to one.
 std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& edges) {
     std::vector<char> at_edge(complex.points.size(), 0);
@@ -116,26 +90,17 @@ std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& 
     return inner;
 }
 
-/// Asks for half the size at the places; false when all are as fine as may be.
-bool refine_at(const std::vector<Vec3>& places, SizeField& sizes, int levels = halvings) {
-    const double finest = std::ldexp(sizes.spacing(), -levels);
-    std::vector<std::pair<Vec3, double>> wanted;
-    for (const Vec3& p : places) {
-        if (const double here = sizes.at(p); here > 1.01 * finest) {
-            wanted.emplace_back(p, std::max(finest, 0.5 * here));
-        }
-    }
-    for (const auto& [p, size] : wanted) {
-        sizes.refine(p, size);
-    }
-    return !wanted.empty();
+FinerPlace place_of(const FaultComplex& complex, std::uint32_t t) {
+    return {centroid(corners(complex, t)), {complex.sheet[t]}};
 }
 
-std::vector<Vec3> centroids(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& pairs) {
-    std::vector<Vec3> places;
-    for (const auto& pair : pairs) {
-        for (const std::uint32_t t : pair) {
-            places.push_back(centroid(corners(complex, t)));
+/// Where two triangles cross, the one and the other.
+std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
+                                        const std::vector<std::array<std::uint32_t, 2>>& pairs) {
+    std::vector<FinerPlace> places;
+    for (const auto& [s, t] : pairs) {
+        for (const std::uint32_t own : {s, t}) {
+            places.push_back({centroid(corners(complex, own)), {complex.sheet[s], complex.sheet[t]}});
         }
     }
     return places;
@@ -146,8 +111,8 @@ std::vector<Vec3> centroids(const FaultComplex& complex, const std::vector<std::
 /// √(d r_p) or more about the crossing: no such section is free of the sheet's own seeds where its triangles are
 /// smaller than about 1.1 √(s d); `slack` times that, where they are refined already. Seeds of the junction itself
 /// don't count.
-std::vector<Vec3> leaks(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                        const SizeField& sizes) {
+std::vector<FinerPlace> leaks(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
+                              const SizeField& sizes) {
     const double spacing = sizes.spacing();
     const double horizon = 0.75 * spacing;
     std::vector<TriangleCorners> triangles;
@@ -185,10 +150,10 @@ std::vector<Vec3> leaks(const FaultComplex& complex, const std::vector<std::vect
             }
         }
     }
-    std::vector<Vec3> places;
+    std::vector<FinerPlace> places;
     for (std::uint32_t t = 0; t < leaky.size(); ++t) {
         if (leaky[t] != 0) {
-            places.push_back(centroid(corners(complex, t)));
+            places.push_back(place_of(complex, t));
         }
     }
     return places;
@@ -400,26 +365,25 @@ void FaultPreparer::extend(std::uint32_t number) {
 }
 
 std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
-    SizeField sizes(scale_.spacing);
+    std::vector<char> active;
+    for (const Candidate& candidate : candidates_) {
+        active.push_back(candidate.active ? 1 : 0);
+    }
+    mesher_->keep(active);
+    const SizeField& sizes = mesher_->sizes();
     Pass pass;
     pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
-    const FaultComplex sheets = active_sheets();
-    if (options_.refine) {
-        refine_near(samples_, sheets, sizes);
-    }
-    std::size_t coarse = 0;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
     for (int halving = 0;; ++halving) {
-        report_progress(progress_, "meshing faults", static_cast<double>(halving) / (halvings + 1));
-        std::vector<std::array<std::uint32_t, 2>> crossings;
-        pass.complex = meshed(sheets, sizes, crossings);
-        coarse = halving == 0 ? pass.complex.triangles.size() : coarse;
-        const bool last = halving == halvings || pass.complex.triangles.size() > growth * coarse + 4000;
+        report_progress(progress_, "meshing faults", 1 - 1 / (1 + 0.2 * passes_++));
+        auto [complex, crossings] = mesher_->mesh();
+        pass.complex = std::move(complex);
+        const bool last = halving == halvings || mesher_->overgrown();
         if (!crossings.empty()) {
             const bool helps = 2 * crossings.size() <= crossings_before;
             crossings_before = crossings.size();
-            if (last || !helps || !refine_at(centroids(pass.complex, crossings), sizes)) {
+            if (last || !helps || !mesher_->refine(crossing_places(pass.complex, crossings), halvings)) {
                 refuse_crossing(pass.complex, crossings);
                 return {};
             }
@@ -427,8 +391,11 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         }
         if (paired) {
             FaultComplex rounded = pass.complex;
-            const std::vector<Vec3> bends = round_bends(rounded, sizes);
-            if (!last && refine_at(bends, sizes)) {
+            std::vector<FinerPlace> bends;
+            for (const Vec3& p : round_bends(rounded, sizes)) {
+                bends.push_back({p, {}});
+            }
+            if (!last && mesher_->refine(bends, halvings)) {
                 continue;
             }
             if (crossing_triangles(rounded).empty()) {
@@ -438,28 +405,28 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         for (Vec3& p : pass.complex.points) {
             p = frame_.snapped(p);
         }
-        report_progress(progress_, "seeding faults", static_cast<double>(halving) / (halvings + 1));
+        report_progress(progress_, "seeding faults", 1 - 1 / (1 + 0.2 * passes_));
         seed(pass, sizes);
         if (!last &&
-            refine_at(leaks(pass.complex, pass.seeded.seeds, sizes), sizes, paired ? halvings : exact_halvings)) {
+            mesher_->refine(leaks(pass.complex, pass.seeded.seeds, sizes), paired ? halvings : exact_halvings)) {
             continue;
         }
         if (!paired) {
             return pass;
         }
         const std::vector<char> inner = inner_triangles(pass.complex, EdgeTable(pass.complex.triangles));
-        std::vector<Vec3> places;
+        std::vector<FinerPlace> places;
         std::vector<double> bad(candidates_.size(), 0);
         std::vector<Vec3> where(candidates_.size());
         for (std::uint32_t t = 0; t < inner.size(); ++t) {
             if (inner[t] != 0 && pass.seeded.separated[t] == 0) {
                 const TriangleCorners c = corners(pass.complex, t);
-                places.push_back(centroid(c));
+                places.push_back(place_of(pass.complex, t));
                 bad[pass.complex.sheet[t]] += length(area_vector(c));
-                where[pass.complex.sheet[t]] = places.back();
+                where[pass.complex.sheet[t]] = places.back().position;
             }
         }
-        if (!last && refine_at(places, sizes)) {
+        if (!last && mesher_->refine(places, halvings)) {
             continue;
         }
         bool refused = false;
@@ -502,18 +469,11 @@ void FaultPreparer::cut() {
                    "faults all over");
         }
     } while (cut_.tangled);
-}
-
-FaultComplex FaultPreparer::active_sheets() const {
-    FaultComplex result{cut_.complex.points, {}, {}};
-    for (std::size_t t = 0; t < cut_.complex.triangles.size(); ++t) {
-        if (candidates_[cut_.complex.sheet[t]].active) {
-            result.triangles.push_back(cut_.complex.triangles[t]);
-            result.sheet.push_back(cut_.complex.sheet[t]);
-        }
+    mesher_ = std::make_unique<FaultMesher>(std::move(cut_.complex), scale_.spacing,
+                                            options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi);
+    if (options_.refine) {
+        mesher_->want(places_near(samples_, mesher_->cut(), scale_.spacing));
     }
-    compact(result);
-    return result;
 }
 
 /// The smaller one of each pair goes, unless the larger one went already.
@@ -534,52 +494,6 @@ bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std
         any = true;
     }
     return any;
-}
-
-/// Pieces that already suit the spacing and meet no other sheet are kept as they are.
-FaultComplex FaultPreparer::meshed(const FaultComplex& cut, const SizeField& sizes,
-                                   std::vector<std::array<std::uint32_t, 2>>& crossings) const {
-    const double widest = options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi;
-    std::map<std::uint32_t, FaultMesh> pieces;
-    const std::vector<std::uint32_t> piece_of = pieces_of(cut);
-    std::map<std::uint32_t, bool> kept;
-    if (sizes.uniform()) {
-        for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
-            FaultMesh& piece = pieces[piece_of[t]];
-            piece.triangles.push_back(cut.triangles[t]);
-        }
-        for (auto& [number, piece] : pieces) {
-            piece.points = cut.points;
-            compact(piece);
-            kept[number] = suits(piece, scale_.spacing, widest);
-        }
-        const EdgeTable edges(cut.triangles);
-        for (const EdgeTable::Edge& e : edges.edges()) {
-            const auto of_edge = edges.triangles(e);
-            if (of_edge.size() > 1 && !is_smooth(cut, of_edge)) {
-                kept[piece_of[of_edge[0]]] = false;
-            }
-        }
-    }
-    FaultComplex changing{cut.points, {}, {}};
-    FaultComplex staying{cut.points, {}, {}};
-    for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
-        FaultComplex& to = kept[piece_of[t]] ? staying : changing;
-        to.triangles.push_back(cut.triangles[t]);
-        to.sheet.push_back(cut.sheet[t]);
-    }
-    compact(changing);
-    compact(staying);
-    RemeshReport report;
-    FaultComplex result = remeshed(changing, sizes, zip, report);
-    crossings = std::move(report.crossings);
-    const auto offset = static_cast<std::uint32_t>(result.points.size());
-    result.points.insert(result.points.end(), staying.points.begin(), staying.points.end());
-    for (const Triangle& t : staying.triangles) {
-        result.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-    }
-    result.sheet.insert(result.sheet.end(), staying.sheet.begin(), staying.sheet.end());
-    return result;
 }
 
 bool FaultPreparer::refuse_crossing(const FaultComplex& complex,

@@ -4,6 +4,7 @@
 /// \file
 /// Internal: the steps from surfaces to faults, in their order, and who is refused on the way.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "tess/fault.hpp"
 #include "tess/fault_cut.hpp"
+#include "tess/fault_mesher.hpp"
 #include "tess/fault_repair.hpp"
 #include "tess/fault_seal.hpp"
 #include "tess/fault_seed.hpp"
@@ -72,10 +74,7 @@ class FaultPreparer {
     /// Nothing when surfaces were refused and the rest is to be tried again.
     std::optional<Pass> attempt();
     void cut();
-    [[nodiscard]] FaultComplex active_sheets() const;
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
-    FaultComplex meshed(const FaultComplex& cut, const SizeField& sizes,
-                        std::vector<std::array<std::uint32_t, 2>>& crossings) const;
     bool refuse_crossing(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
     void seed(Pass& pass, const SizeField& sizes) const;
     [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;
@@ -102,7 +101,9 @@ class FaultPreparer {
     const Progress& progress_;
     std::span<const Vec3> samples_;
     std::vector<Candidate> candidates_;
-    CutSheets cut_;
+    CutSheets cut_;  ///< but for its complex, which the mesher has
+    std::unique_ptr<FaultMesher> mesher_;
+    int passes_ = 0;  ///< of the mesher
 };
 
 }  // namespace terratet

@@ -27,7 +27,9 @@ constexpr double thin = 0.05;         ///< height of a triangle in edge lengths:
 constexpr double corner_turn = 1.05;  ///< radians: rims and junctions that turn more keep a node there
 constexpr double least_wedge = 10 * std::numbers::pi / 180;
 constexpr int rounds = 6;
+constexpr int later_rounds = 2;  ///< from triangles that suit all but the newest wishes
 constexpr int repairs = 8;
+constexpr int patience = 2;  ///< repairs that may bring nothing
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
@@ -78,23 +80,32 @@ bool beyond_box(const Vec3& p, const TriangleCorners& c, double limit) {
 using PatchTarget = Target<Kernel::Triangle_3, CGAL::AABB_triangle_primitive>;
 using LineTarget = Target<Kernel::Segment_3, CGAL::AABB_segment_primitive>;
 
-class Remesher {
+}  // namespace
+
+class FaultRemesher::Impl {
   public:
-    Remesher(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report)
+    Impl(const FaultComplex& complex, const SizeField& sizes, double snap)
         : numbering_(patches(complex, EdgeTable(complex.triangles))),
           editor_(complex, numbering_, sizes),
           sizes_(sizes),
-          snap_(snap),
-          report_(report) {
+          snap_(snap) {
         set_targets(complex);
         keep_corners(complex);
     }
 
-    FaultComplex run() {
-        for (int round = 0; round < rounds; ++round) {
+    Result pass() {
+        const bool first = passes_++ == 0;
+        awake_.assign(editor_.point_count(), first ? 1 : 0);
+        if (!first) {
+            for (const std::uint32_t v : editor_.update_sizes()) {
+                awake_[v] = 1;
+            }
+            wake_neighbours(3);
+        }
+        for (int round = 0; round < (first ? rounds : later_rounds); ++round) {
             split_long();
             collapse_short();
-            if (round > 0) {
+            if (!first || round > 0) {
                 flatten_thin();
                 snap_close(snap_);
                 collapse_short();
@@ -104,12 +115,20 @@ class Remesher {
                 smooth(0.7);
             }
         }
-        for (int step = 0; step < 6; ++step) {
+        for (int step = 0; step < (first ? 6 : 2); ++step) {
             flip_all(1);
             smooth(0.5);
         }
         flip_all(6);
         return settle();
+    }
+
+    void keep(const std::vector<char>& active) {
+        for (std::uint32_t t = 0; t < editor_.triangles().size(); ++t) {
+            if (editor_.triangles()[t].alive && active[editor_.triangles()[t].sheet] == 0) {
+                editor_.remove_triangle(t);
+            }
+        }
     }
 
   private:
@@ -157,6 +176,26 @@ class Remesher {
         }
     }
 
+    /// Only points that are awake move, flip their edges and look for what they nearly touch: after the first pass
+    /// those where something is to be done, and new ones.
+    [[nodiscard]] bool awake(std::uint32_t v) const { return v >= awake_.size() || awake_[v] != 0; }
+
+    void wake_neighbours(int rings) {
+        for (int ring = 0; ring < rings; ++ring) {
+            const std::vector<char> before = awake_;
+            for (const auto& triangle : editor_.triangles()) {
+                const auto is_awake = [&](std::uint32_t v) { return v >= before.size() || before[v] != 0; };
+                if (triangle.alive && std::ranges::any_of(triangle.corners, is_awake)) {
+                    for (const std::uint32_t v : triangle.corners) {
+                        if (v < awake_.size()) {
+                            awake_[v] = 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     [[nodiscard]] Vec3 on_surface(std::uint32_t patch, const Vec3& p) const { return surfaces_[patch]->nearest(p); }
 
     void split_long() {
@@ -178,7 +217,6 @@ class Remesher {
                     at = middle;
                 }
                 editor_.split_edge(u, v, at);
-                ++report_.splits;
                 any = true;
             }
         }
@@ -213,7 +251,6 @@ class Remesher {
                 }
                 const bool done = editor_.collapse(u, v) || editor_.collapse(v, u);
                 any = any || done;
-                report_.collapses += done ? 1 : 0;
             }
             if (!any) {
                 return;
@@ -225,10 +262,7 @@ class Remesher {
         for (int pass = 0; pass < passes; ++pass) {
             bool any = false;
             for (const auto& [u, v] : editor_.edges()) {
-                if (editor_.flip(u, v)) {
-                    any = true;
-                    ++report_.flips;
-                }
+                any = ((awake(u) || awake(v)) && editor_.flip(u, v)) || any;
             }
             if (!any) {
                 return;
@@ -239,7 +273,7 @@ class Remesher {
     /// Centroidal for triangles inside a patch, halfway between neighbours along a chain.
     void smooth(double share) {
         for (std::uint32_t v = 0; v < editor_.point_count(); ++v) {
-            if (editor_.star(v).empty()) {
+            if (!awake(v) || editor_.star(v).empty()) {
                 continue;
             }
             const auto classified = editor_.classify(v);
@@ -322,7 +356,7 @@ class Remesher {
         using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
         std::vector<Box> around;
         for (std::uint32_t v = 0; v < editor_.point_count(); ++v) {
-            if (!editor_.star(v).empty()) {
+            if (awake(v) && !editor_.star(v).empty()) {
                 const double reach = share * editor_.size(v);
                 const Vec3 lo = editor_.point(v) - Vec3{reach, reach, reach};
                 const Vec3 hi = editor_.point(v) + Vec3{reach, reach, reach};
@@ -417,7 +451,6 @@ class Remesher {
                 const Vec3 foot = editor_.point(a) + along * (editor_.point(b) - editor_.point(a));
                 unite(ends[apex], editor_.split_edge(a, b, foot));
             }
-            ++report_.snaps;
         }
     }
 
@@ -452,7 +485,6 @@ class Remesher {
         if (!is_corner) {
             into = new_point_at(t, foot, touching);
         }
-        ++report_.snaps;
         const PointKind kind = editor_.classify(v).kind;
         if (is_corner && editor_.classify(into).kind > kind) {
             editor_.merge(v, into);
@@ -520,25 +552,35 @@ class Remesher {
     }
 
     /// Verifies, and repairs by snapping from farther and farther; keeps the best.
-    FaultComplex settle() {
-        FaultComplex best;
+    Result settle() {
+        Result best;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        int last_gain = 0;
         for (int repair = 0; repair <= repairs; ++repair) {
             drop_flaps();
             FaultComplex now = editor_.result();
             restore_sense(now);  // of triangles that coincided one stayed, whichever way it was turned
             auto crossings = crossing_triangles(now);
-            const auto [wedge, sharp] = sharp_wedges(now);
-            const std::size_t faults = 1000 * crossings.size() + sharp + thin_triangles(now, sizes_);
+            const Trouble sharp = sharp_wedges(now);
+            const Trouble flat = thin_triangles(now, sizes_);
+            const std::size_t faults = 1000 * crossings.size() + sharp.count + flat.count;
+            std::vector<Vec3> places = sharp.places;
+            places.insert(places.end(), flat.places.begin(), flat.places.end());
+            for (const auto& pair : crossings) {
+                for (const std::uint32_t t : pair) {
+                    const TriangleCorners c = corners(now, t);
+                    places.insert(places.end(), c.begin(), c.end());
+                }
+            }
             if (faults < fewest) {
                 fewest = faults;
-                best = std::move(now);
-                report_.crossings = std::move(crossings);
-                report_.least_wedge = wedge;
+                last_gain = repair;
+                best = {std::move(now), std::move(crossings)};
             }
-            if (fewest == 0 || repair == repairs || snap_ <= 0) {
+            if (fewest == 0 || repair == repairs || repair >= last_gain + patience || snap_ <= 0) {
                 break;
             }
+            wake_only(std::move(places));
             flatten_thin();
             snap_close(std::min(snap_ + 0.02 * (repair + 1), 0.3));
             collapse_short();
@@ -550,41 +592,71 @@ class Remesher {
         return best;
     }
 
-    static std::size_t thin_triangles(const FaultComplex& complex, const SizeField& sizes) {
+    /// What is wrong with a result, and the points it is wrong about.
+    struct Trouble {
         std::size_t count = 0;
+        std::vector<Vec3> places;
+    };
+
+    static Trouble thin_triangles(const FaultComplex& complex, const SizeField& sizes) {
+        Trouble trouble;
         for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
             const TriangleCorners c = corners(complex, t);
             const double side = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
-            count += 2 * length(area_vector(c)) < thin * sizes.at(c[0]) * side ? 1 : 0;
+            if (2 * length(area_vector(c)) < thin * sizes.at(c[0]) * side) {
+                ++trouble.count;
+                trouble.places.insert(trouble.places.end(), c.begin(), c.end());
+            }
         }
-        return count;
+        return trouble;
     }
 
-    static std::pair<double, std::size_t> sharp_wedges(const FaultComplex& complex) {
-        double least = std::numbers::pi;
-        std::size_t sharp = 0;
+    static Trouble sharp_wedges(const FaultComplex& complex) {
+        Trouble trouble;
         const EdgeTable edges(complex.triangles);
         for (const EdgeTable::Edge& e : edges.edges()) {
-            const double angle = wedge_angle(complex, edges.triangles(e), e.a, e.b);
-            least = std::min(least, angle);
-            sharp += angle < least_wedge ? 1 : 0;
+            const auto of_edge = edges.triangles(e);
+            if (wedge_angle(complex, of_edge, e.a, e.b) < least_wedge) {
+                ++trouble.count;
+                for (const std::uint32_t t : of_edge) {
+                    const TriangleCorners c = corners(complex, t);
+                    trouble.places.insert(trouble.places.end(), c.begin(), c.end());
+                }
+            }
         }
-        return {least, sharp};
+        return trouble;
+    }
+
+    void wake_only(std::vector<Vec3> places) {
+        std::ranges::sort(places);
+        awake_.assign(editor_.point_count(), 0);
+        for (std::uint32_t v = 0; v < awake_.size(); ++v) {
+            awake_[v] = std::ranges::binary_search(places, editor_.point(v)) ? 1 : 0;
+        }
+        wake_neighbours(2);
     }
 
     Patches numbering_;
     ComplexEditor editor_;
     const SizeField& sizes_;
     double snap_;
-    RemeshReport& report_;
+    int passes_ = 0;
+    std::vector<char> awake_;
     std::vector<std::unique_ptr<PatchTarget>> surfaces_;
     LineTarget lines_;
 };
 
-}  // namespace
+FaultRemesher::FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap)
+    : impl_(std::make_unique<Impl>(complex, sizes, snap)) {}
 
-FaultComplex remeshed(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report) {
-    return Remesher(complex, sizes, snap, report).run();
+FaultRemesher::~FaultRemesher() = default;
+
+FaultRemesher::Result FaultRemesher::pass() {
+    return impl_->pass();
+}
+
+void FaultRemesher::keep(const std::vector<char>& active) {
+    impl_->keep(active);
 }
 
 }  // namespace terratet

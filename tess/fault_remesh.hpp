@@ -4,25 +4,39 @@
 /// \file
 /// Internal: a fault complex remeshed to the seeds' spacing, all sheets at once, so that junctions stay conforming.
 
+#include <memory>
+
 #include "tess/fault_complex.hpp"
 #include "tess/size_field.hpp"
 
 namespace terratet {
 
-struct RemeshReport {
-    std::size_t splits = 0;
-    std::size_t collapses = 0;
-    std::size_t flips = 0;
-    std::size_t snaps = 0;                                ///< points merged into a sheet they nearly touched
-    std::vector<std::array<std::uint32_t, 2>> crossings;  ///< left over: triangles of the result
-    double least_wedge = 0;                               ///< radians; of the result
-};
+/// Sheets under remeshing, to be gone on with when other sizes are wanted or a surface is left out.
+class FaultRemesher {
+  public:
+    /// Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it. `sizes` must outlive
+    /// the remesher and may change between passes.
+    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap);
+    ~FaultRemesher();
 
-/// Near-equilateral triangles of the wanted edge length (split above 4/3 of it, collapse below 0.7, Delaunay flips,
-/// points centred and projected back; after Botsch and Kobbelt 2004, carried over to edges with any number of
-/// triangles). Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it, which zips
-/// wedges below about 15°; rounds of that follow until no triangles cross and no wedge is below 10°, or nothing helps.
-/// Deterministic. About 0.3 ms a point.
-FaultComplex remeshed(const FaultComplex& complex, const SizeField& sizes, double snap, RemeshReport& report);
+    struct Result {
+        FaultComplex complex;
+        std::vector<std::array<std::uint32_t, 2>> crossings;  ///< left over: triangles of the complex
+    };
+
+    /// Near-equilateral triangles of the wanted edge length (split above 4/3 of it, collapse below 0.7, Delaunay flips,
+    /// points centred and projected back onto the sheets as given; after Botsch and Kobbelt 2004, carried over to edges
+    /// with any number of triangles). Snapping zips wedges below about 15°; rounds of that follow until no triangles
+    /// cross and no wedge is below 10°, or nothing helps. Deterministic. About 0.3 ms a point the first time; later
+    /// passes start from the last one's triangles, which a tenth of that suffices for where sizes are as they were.
+    Result pass();
+
+    /// Leaves out the surfaces not marked; where they met others, those keep their points on the line.
+    void keep(const std::vector<char>& active);
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace terratet

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: all faults' sheets as one complex of triangles as large as wanted, kept up while smaller ones are asked
+/// for in places and surfaces are refused.
+
+#include <memory>
+#include <vector>
+
+#include "tess/fault_complex.hpp"
+#include "tess/fault_remesh.hpp"
+#include "tess/size_field.hpp"
+
+namespace terratet {
+
+/// A place that asks for smaller triangles, for the sake of some surfaces; of none: whichever there are.
+struct FinerPlace {
+    Vec3 position;
+    std::vector<std::uint32_t> surfaces;
+};
+
+struct WantedSize {
+    FinerPlace place;
+    double size;
+};
+
+class FaultMesher {
+  public:
+    /// \param cut     sheets that meet in shared edges only (fault_cut.hpp)
+    /// \param widest  radians; pieces with wider angles are remeshed even if their spacing suits
+    FaultMesher(FaultComplex cut, double spacing, double widest);
+
+    /// The sheets at the sizes now wanted. Pieces that suit the spacing as they came and meet no other sheet are kept
+    /// as they are until something is refined.
+    FaultRemesher::Result mesh();
+
+    /// Asks for triangles of given sizes.
+    void want(const std::vector<WantedSize>& wishes);
+
+    /// Asks for half the size at the places, at most so many times; false when all are as fine as may be.
+    bool refine(const std::vector<FinerPlace>& places, int halvings);
+
+    /// Leaves out the surfaces not marked, and forgets what was refined for their sake.
+    void keep(const std::vector<char>& active);
+
+    /// The sheets as cut, of the surfaces still in.
+    [[nodiscard]] const FaultComplex& cut() const { return cut_; }
+    [[nodiscard]] const SizeField& sizes() const { return sizes_; }
+
+    /// So many triangles more than at first that it should stop here?
+    [[nodiscard]] bool overgrown() const { return triangles_ > 2 * first_triangles_ + 4000; }
+
+  private:
+    void part(FaultComplex& changing);
+
+    FaultComplex cut_;
+    double widest_;
+    SizeField sizes_;
+    std::vector<WantedSize> wishes_;
+    FaultComplex staying_;
+    std::unique_ptr<FaultRemesher> remesher_;
+    std::size_t first_triangles_ = 0;
+    std::size_t triangles_ = 0;
+};
+
+}  // namespace terratet

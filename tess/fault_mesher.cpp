@@ -71,6 +71,9 @@ FaultRemesher::Result FaultMesher::mesh() {
             part(changing);
         }
         remesher_ = std::make_unique<FaultRemesher>(changing, sizes_, zip);
+        patched_ = false;
+    } else {
+        patched_ = true;
     }
     FaultRemesher::Result result = remesher_->pass();
     append(result.complex, staying_);
@@ -108,6 +111,13 @@ void FaultMesher::part(FaultComplex& changing) {
     }
     compact(changing);
     compact(staying_);
+}
+
+bool FaultMesher::renew() {
+    if (patched_) {
+        remesher_.reset();
+    }
+    return patched_;
 }
 
 void FaultMesher::want(const std::vector<WantedSize>& wishes) {

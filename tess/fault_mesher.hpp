@@ -35,6 +35,9 @@ class FaultMesher {
     /// as they are until something is refined.
     FaultRemesher::Result mesh();
 
+    /// Have triangles been changed since they were made in one go? Then the next mesh() makes them so again.
+    bool renew();
+
     /// Asks for triangles of given sizes.
     void want(const std::vector<WantedSize>& wishes);
 
@@ -62,6 +65,7 @@ class FaultMesher {
     std::unique_ptr<FaultRemesher> remesher_;
     std::size_t first_triangles_ = 0;
     std::size_t triangles_ = 0;
+    bool patched_ = false;  ///< by passes after the first
 };
 
 }  // namespace terratet

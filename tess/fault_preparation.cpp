@@ -32,6 +32,7 @@ constexpr double junction_zone = 0.45;  ///< in edge lengths: seeds nearer to a 
 constexpr double screened = 1.1;        ///< see leaks()
 constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
 constexpr int exact_halvings = 1;       ///< against leaks in exact mode: triangles of unequal size are hard to certify
+constexpr int most_renewals = 3;        ///< of the mesh in one go; each may bring new wishes
 constexpr double widest_exact = 1.5;    ///< radians: the seeds of right-angled neighbours would coincide
 
 std::string place_text(const Vec3& p) {
@@ -375,10 +376,12 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
+    int renewals = 0;
     for (int halving = 0;; ++halving) {
         report_progress(progress_, "meshing faults", 1 - 1 / (1 + 0.2 * passes_++));
-        auto [complex, crossings] = mesher_->mesh();
-        pass.complex = std::move(complex);
+        FaultRemesher::Result meshed = mesher_->mesh();
+        const auto& crossings = meshed.crossings;
+        pass.complex = std::move(meshed.complex);
         const bool last = halving == halvings || mesher_->overgrown();
         if (!crossings.empty()) {
             const bool helps = 2 * crossings.size() <= crossings_before;
@@ -412,6 +415,12 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
             continue;
         }
         if (!paired) {
+            if (renewals < most_renewals &&
+                mesher_->renew()) {  // what is certified depends on how regular the triangles are
+                ++renewals;
+                --halving;
+                continue;
+            }
             return pass;
         }
         const std::vector<char> inner = inner_triangles(pass.complex, EdgeTable(pass.complex.triangles));

@@ -28,7 +28,7 @@ class FaultRemesher {
     /// points centred and projected back onto the sheets as given; after Botsch and Kobbelt 2004, carried over to edges
     /// with any number of triangles). Snapping zips wedges below about 15°; rounds of that follow until no triangles
     /// cross and no wedge is below 10°, or nothing helps. Deterministic. About 0.3 ms a point the first time; later
-    /// passes start from the last one's triangles, which a tenth of that suffices for where sizes are as they were.
+    /// passes change the last one's triangles where sizes have changed, a tenth of that, and leave them less regular.
     Result pass();
 
     /// Leaves out the surfaces not marked; where they met others, those keep their points on the line.

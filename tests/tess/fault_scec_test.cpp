@@ -53,18 +53,23 @@ Surface read_tsurf_file(const std::filesystem::path& path) {
     return surface;
 }
 
-std::vector<Surface> scec_surfaces() {
+std::vector<Surface> scec_surfaces(const std::string& folder) {
     std::vector<Surface> surfaces;
-    for (const char* folder : {"scec_cfm/native", "scec_cfm/alt"}) {
-        if (const auto path = testing::public_data(folder)) {
-            for (const auto& entry : std::filesystem::directory_iterator(*path)) {
-                if (entry.path().extension() == ".ts") {
-                    surfaces.push_back(read_tsurf_file(entry.path()));
-                }
+    if (const auto path = testing::public_data(folder)) {
+        for (const auto& entry : std::filesystem::directory_iterator(*path)) {
+            if (entry.path().extension() == ".ts") {
+                surfaces.push_back(read_tsurf_file(entry.path()));
             }
         }
     }
     std::sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    return surfaces;
+}
+
+std::vector<Surface> scec_surfaces() {
+    std::vector<Surface> surfaces = scec_surfaces("scec_cfm/native");
+    std::ranges::move(scec_surfaces("scec_cfm/alt"), std::back_inserter(surfaces));
+    std::ranges::sort(surfaces, {}, &Surface::name);
     return surfaces;
 }
 
@@ -198,6 +203,23 @@ TEST_CASE("F1: each fourth of 97 real faults alone is used or refused, and no fo
     }
     CHECK(tally.crossing == 0);
     CHECK(tally.used >= 23);  // of 25
+}
+
+TEST_CASE("F4: of 87 real faults with their alternative versions each is used, or refused for a reason") {
+    std::vector<Surface> surfaces = scec_surfaces("scec_cfm/native");
+    if (surfaces.empty()) {
+        WARN("public data scec_cfm is absent");
+        return;
+    }
+    REQUIRE(surfaces.size() == 87);
+    const Box3 extent = box_of(surfaces);
+    const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, extent.diagonal() / 100);
+    Tally tally;
+    check_accounts(surfaces, preparation, tally);
+    CHECK(tally.used >= 20);
+    CHECK(tally.overlapping >= 15);
+    const Box3 hull = extent.grown(hull_margin({}, extent.diagonal() / 100));
+    CHECK(testing::count_crossings(preparation.faults, hull, 2000, 1, 3).crossing == 0);
 }
 
 TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most of it certified") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace terratet {
 namespace {
@@ -242,35 +243,35 @@ std::vector<std::uint32_t> CollapseImage::culprits() const {
     return result;
 }
 
-std::vector<std::uint32_t> CollapseImage::vertices_behind(std::uint32_t origin) const {
-    std::vector<std::uint32_t> open{origin};
+/// What the node was made of, and that of what: each node once, since what is cut again and again has the same ends
+/// many times over. Later nodes lie between earlier ones.
+template <class EndsOf>
+std::vector<std::uint32_t> CollapseImage::origins(std::uint32_t node, const EndsOf& ends_of) const {
+    std::set<std::uint32_t> open{node};
     std::vector<std::uint32_t> result;
     while (!open.empty()) {
-        const std::uint32_t next = open.back();
-        open.pop_back();
+        const std::uint32_t next = *open.rbegin();
+        open.erase(next);
         if (next < mesh_.points.size()) {
             result.push_back(next);
         } else {
-            const Cut& halfway = cuts_[next - mesh_.points.size()];
-            open.insert(open.end(), {halfway.a, halfway.b});
+            const auto ends = ends_of(next - mesh_.points.size());
+            open.insert(ends.begin(), ends.end());
         }
     }
-    std::ranges::sort(result);
-    result.erase(std::ranges::unique(result).begin(), result.end());
+    std::ranges::reverse(result);
     return result;
 }
 
+std::vector<std::uint32_t> CollapseImage::vertices_behind(std::uint32_t origin) const {
+    return origins(origin, [this](std::size_t k) { return std::array{cuts_[k].a, cuts_[k].b}; });
+}
+
 std::vector<std::uint32_t> CollapseImage::fault_nodes_at(std::uint32_t node) const {
-    std::vector<std::uint32_t> open{node};
     std::vector<std::uint32_t> result;
-    while (!open.empty()) {
-        const std::uint32_t next = open.back();
-        open.pop_back();
-        if (next >= mesh_.points.size()) {
-            const auto& ends = crossed_[next - mesh_.points.size()];
-            open.insert(open.end(), ends.begin(), ends.end());
-        } else if (fault_node_[next] != none) {
-            result.push_back(fault_node_[next]);
+    for (const std::uint32_t v : origins(node, [this](std::size_t k) { return crossed_[k]; })) {
+        if (fault_node_[v] != none) {
+            result.push_back(fault_node_[v]);
         }
     }
     std::ranges::sort(result);

@@ -72,6 +72,8 @@ class CollapseImage {
     [[nodiscard]] std::vector<std::uint32_t> fault_nodes_at(std::uint32_t node) const;
 
   private:
+    template <class EndsOf>
+    std::vector<std::uint32_t> origins(std::uint32_t node, const EndsOf& ends_of) const;
     [[nodiscard]] bool degenerate(const Cell& cell) const;
     [[nodiscard]] double height(const Cell& cell) const;
     [[nodiscard]] double longest_edge(const Cell& cell) const;

@@ -77,7 +77,7 @@ RefinementSite made_up() {
     return result;
 }
 
-std::optional<RefinementSite> babbitt() {
+std::optional<RefinementSite> babbitt(double l_min) {
     const auto folder = testing::public_data("pygslib/doc/source/Tutorial_1/Babbitt");
     if (!folder) {
         return std::nullopt;
@@ -88,9 +88,9 @@ std::optional<RefinementSite> babbitt() {
     inputs.logs = {{(*folder / "assay_BABBITT.csv").string()}};
     inputs.source_crs = "EPSG:26791";
     inputs.properties = {"CU"};
-    RefinementSite result = site_from("Babbitt", inputs, 300);
+    RefinementSite result = site_from("Babbitt", inputs, l_min);
     const Vec3 centre = result.site.frame.to_local({2297200, 418500, 300});
-    result.site.surfaces.push_back(testing::planar_fault("F", centre, 55, 60, 10000, 3000, 300));
+    result.site.surfaces.push_back(testing::planar_fault("F", centre, 55, 60, 10000, 3000, l_min));
     Box3 data = bounding_box(result.site.samples.positions);
     result.options.extent = data.grown(result.options.criteria.l_max);
     return result;

@@ -24,8 +24,9 @@ RefinementSite twin();
 /// 200 wells × 50 samples in the twin's box, 5 planar faults; 15 m to 60 m.
 RefinementSite made_up();
 
-/// 399 holes in feet, 23 690 samples, and a dipping fault; 300 ft to 1200 ft. Nothing where the public data are absent.
-std::optional<RefinementSite> babbitt();
+/// 399 holes in feet, 23 690 samples, and a dipping fault; l_min, in feet, to 4 l_min. Nothing where the public data
+/// are absent.
+std::optional<RefinementSite> babbitt(double l_min);
 
 /// A site as other generators can take it: samples and the faults' vertices, thinned to l_min, in the extent.
 PointsInBox bare_points(const RefinementSite& site);

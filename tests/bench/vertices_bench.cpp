@@ -22,10 +22,13 @@ namespace {
 
 std::vector<RefinementSite> sites() {
     std::vector<RefinementSite> all = {twin(), made_up()};
-    if (auto site = babbitt()) {
-        all.push_back(std::move(*site));
-    } else {
-        std::printf("Babbitt is left out: the public data are not there\n");
+    for (const double l_min : {300.0, 200.0}) {
+        if (auto site = babbitt(l_min)) {
+            site->name += l_min == 300 ? ", 300 ft" : ", 200 ft";
+            all.push_back(std::move(*site));
+        } else {
+            std::printf("Babbitt is left out: the public data are not there\n");
+        }
     }
     return all;
 }

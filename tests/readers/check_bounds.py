@@ -99,7 +99,7 @@ def main():
             over = outside.max()
             result[what + " outside"] = over
             result[what + " strays"] = int((outside > 1e-3).sum())
-            assert (outside > 0.01).mean() <= args.strays, f"{what}: many places are outside"
+            assert (outside > 0.01).mean() <= args.strays, f"{what}: {(outside > 0.01).mean():.2%} of {len(outside)} places are outside, by up to {outside.max():.3g}"
             assert over < args.tolerance, f"{what}: {over} outside the domain"
         if ground:
             over = (places[:, 2] - ground(places)).max()

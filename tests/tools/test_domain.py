@@ -13,7 +13,7 @@ CHECKER = ROOT / "tests" / "readers" / "check_bounds.py"
 VTK_PYTHON = "/usr/bin/python3"  # Debian's python3-vtk9 and python3-openvdb
 INPUT = 3
 HEIGHT = 1000
-TOLERANCE = "12"  # a fifth of the spacing: what the fracture moves the wall that it meets at an acute angle
+TOLERANCE = "20"  # a third of the spacing: what the fracture moves the wall that it meets at an acute angle
 SIMPLE = [[[525200, 6791600], [525800, 6791650], [525750, 6792400], [525180, 6792300]]]
 CONCAVE = [[[525180, 6791560], [525820, 6791600], [525790, 6792440], [525500, 6792440], [525510, 6792050], [525200, 6792040]],
            [[525320, 6791700], [525320, 6791880], [525560, 6791880], [525560, 6791700]]]
@@ -67,9 +67,9 @@ class Domain(Case):
             report = self.convert(self.polygon(rings), "--overwrite", inputs=inputs)
             self.assertEqual(report["final"]["regions"], 1)
             self.assertEqual(report["final"]["fault_crossing_edges"], 0)
-            self.assertAlmostEqual(report["regions"][0]["volume"] / (self.area(rings) * HEIGHT), 1, delta=1e-5)
+            self.assertAlmostEqual(report["regions"][0]["volume"] / (self.area(rings) * HEIGHT), 1, delta=1e-4)
             self.succeed("export", "--clip", "m.gpkg", "clipped.vtu", "--overwrite")
-            self.check(rings, "--tolerance", 7.5, "--strays", 0.005, "--height", HEIGHT, "clipped.vtu", "m.vtu", "m.vdb", "m.glb")
+            self.check(rings, "--tolerance", 7.5, "--strays", 0.01, "--height", HEIGHT, "clipped.vtu", "m.vtu", "m.vdb", "m.glb")
             self.succeed("check", "m.gpkg")
 
     @staticmethod

@@ -65,12 +65,8 @@ FaultMesher::FaultMesher(FaultComplex cut, double spacing, double widest)
 
 FaultRemesher::Result FaultMesher::mesh() {
     if (!remesher_ || (!staying_.triangles.empty() && !sizes_.uniform())) {
-        FaultComplex changing = cut_;
         staying_ = {};
-        if (sizes_.uniform()) {
-            part(changing);
-        }
-        remesher_ = std::make_unique<FaultRemesher>(changing, sizes_, zip);
+        remesher_ = std::make_unique<FaultRemesher>(sizes_.uniform() ? without_staying() : cut_, sizes_, zip);
         patched_ = false;
     } else {
         patched_ = true;
@@ -82,8 +78,8 @@ FaultRemesher::Result FaultMesher::mesh() {
     return result;
 }
 
-/// Moves the pieces that may stay from `changing` to staying_.
-void FaultMesher::part(FaultComplex& changing) {
+/// Puts the pieces that may stay into staying_, and returns the others.
+FaultComplex FaultMesher::without_staying() {
     const std::vector<std::uint32_t> piece_of = pieces_of(cut_);
     std::map<std::uint32_t, FaultMesh> pieces;
     for (std::uint32_t t = 0; t < cut_.triangles.size(); ++t) {
@@ -102,7 +98,7 @@ void FaultMesher::part(FaultComplex& changing) {
             stays[piece_of[of_edge[0]]] = false;
         }
     }
-    changing = {cut_.points, {}, {}};
+    FaultComplex changing{cut_.points, {}, {}};
     staying_ = {cut_.points, {}, {}};
     for (std::uint32_t t = 0; t < cut_.triangles.size(); ++t) {
         FaultComplex& to = stays[piece_of[t]] ? staying_ : changing;
@@ -111,6 +107,7 @@ void FaultMesher::part(FaultComplex& changing) {
     }
     compact(changing);
     compact(staying_);
+    return changing;
 }
 
 bool FaultMesher::renew() {

@@ -55,7 +55,7 @@ class FaultMesher {
     [[nodiscard]] bool overgrown() const { return triangles_ > 2 * first_triangles_ + 4000; }
 
   private:
-    void part(FaultComplex& changing);
+    FaultComplex without_staying();
 
     FaultComplex cut_;
     double widest_;

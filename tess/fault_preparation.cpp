@@ -12,28 +12,25 @@
 #include "tess/error.hpp"
 #include "tess/fault_approach.hpp"
 #include "tess/fault_clip.hpp"
+#include "tess/fault_crowding.hpp"
 #include "tess/fault_margin.hpp"
 #include "tess/fault_measure.hpp"
 #include "tess/fault_round.hpp"
 #include "tess/fault_row.hpp"
-#include "tess/seed_grid.hpp"
-#include "tess/triangle_grid.hpp"
 
 namespace terratet {
 namespace {
 
-constexpr double tangle_limit = 5;      ///< area over that of the extent's faces: no surface is folded so often
-constexpr double most_dropped = 0.5;    ///< share of a fault that may be lost in repair
-constexpr double crumb = 0.5;           ///< in spacings: smaller parts go
-constexpr double alternative = 0.6;     ///< share of a fault that may run alongside another; in spacings, how near
-constexpr double unseparated = 0.05;    ///< share of a fault that may stay so in paired mode
-constexpr double row_clearance = 0.6;   ///< in edge lengths: a margin row keeps that far from other surfaces
-constexpr double junction_zone = 0.45;  ///< in edge lengths: seeds nearer to a junction are its own
-constexpr double screened = 1.1;        ///< see leaks()
-constexpr int halvings = 3;             ///< of the spacing, where the sides could not be separated
-constexpr int exact_halvings = 1;       ///< against leaks in exact mode: triangles of unequal size are hard to certify
-constexpr int most_renewals = 3;        ///< of the mesh in one go; each may bring new wishes
-constexpr double widest_exact = 1.5;    ///< radians: the seeds of right-angled neighbours would coincide
+constexpr double tangle_limit = 5;     ///< area over that of the extent's faces: no surface is folded so often
+constexpr double most_dropped = 0.5;   ///< share of a fault that may be lost in repair
+constexpr double crumb = 0.5;          ///< in spacings: smaller parts go
+constexpr double alternative = 0.6;    ///< share of a fault that may run alongside another; in spacings, how near
+constexpr double unseparated = 0.05;   ///< share of a fault that may stay so in paired mode
+constexpr double row_clearance = 0.6;  ///< in edge lengths: a margin row keeps that far from other surfaces
+constexpr int halvings = 3;            ///< of the spacing, where the sides could not be separated
+constexpr int exact_halvings = 1;      ///< against leaks in exact mode: triangles of unequal size are hard to certify
+constexpr int most_renewals = 3;       ///< of the mesh in one go; each may bring new wishes
+constexpr double widest_exact = 1.5;   ///< radians: the seeds of right-angled neighbours would coincide
 
 std::string place_text(const Vec3& p) {
     std::array<char, 96> buffer{};
@@ -65,99 +62,6 @@ double area_within(const RepairedFault& repaired, const Box3& extent) {
 bool crosses_itself(const FaultMesh& mesh) {
     const FaultComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
     return !crossing_triangles(alone).empty();
-}
-
-/// Triangles whose sides nothing but the seeds' spacing decides: not at a junction or rim, nor next to one.
-std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& edges) {
-    std::vector<char> at_edge(complex.points.size(), 0);
-    for (const EdgeTable::Edge& e : edges.edges()) {
-        if (!is_smooth(complex, edges.triangles(e))) {
-            at_edge[e.a] = 1;
-            at_edge[e.b] = 1;
-        }
-    }
-    std::vector<char> near_edge = at_edge;
-    for (const Triangle& t : complex.triangles) {
-        if (std::ranges::any_of(t, [&](std::uint32_t v) { return at_edge[v] != 0; })) {
-            for (const std::uint32_t v : t) {
-                near_edge[v] = 1;
-            }
-        }
-    }
-    std::vector<char> inner;
-    for (const Triangle& t : complex.triangles) {
-        inner.push_back(std::ranges::none_of(t, [&](std::uint32_t v) { return near_edge[v] != 0; }) ? 1 : 0);
-    }
-    return inner;
-}
-
-FinerPlace place_of(const FaultComplex& complex, std::uint32_t t) {
-    return {centroid(corners(complex, t)), {complex.sheet[t]}};
-}
-
-/// Where two triangles cross, the one and the other.
-std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
-                                        const std::vector<std::array<std::uint32_t, 2>>& pairs) {
-    std::vector<FinerPlace> places;
-    for (const auto& [s, t] : pairs) {
-        for (const std::uint32_t own : {s, t}) {
-            places.push_back({centroid(corners(complex, own)), {complex.sheet[s], complex.sheet[t]}});
-        }
-    }
-    return places;
-}
-
-/// Triangles that the seeds of another surface come too near to for their size. An edge from such a seed, d away, to a
-/// vertex at least r_p away on the other side lies in an empty ball whose section with the sheet has a radius of
-/// √(d r_p) or more about the crossing: no such section is free of the sheet's own seeds where its triangles are
-/// smaller than about 1.1 √(s d); `slack` times that, where they are refined already. Seeds of the junction itself
-/// don't count.
-std::vector<FinerPlace> leaks(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                              const SizeField& sizes) {
-    const double spacing = sizes.spacing();
-    const double horizon = 0.75 * spacing;
-    std::vector<TriangleCorners> triangles;
-    for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
-        triangles.push_back(corners(complex, t));
-    }
-    const TriangleGrid grid(std::move(triangles), std::vector<double>(complex.triangles.size(), horizon));
-    std::vector<Vec3> ends;
-    const EdgeTable edges(complex.triangles);
-    for (const EdgeTable::Edge& e : edges.edges()) {
-        const auto of_edge = edges.triangles(e);
-        if (of_edge.size() > 1 && !is_smooth(complex, of_edge)) {
-            for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-                ends.push_back(complex.points[e.a] + share * (complex.points[e.b] - complex.points[e.a]));
-            }
-        }
-    }
-    const SeedGrid junctions(ends, 0.5 * spacing);
-    std::vector<char> leaky(complex.triangles.size(), 0);
-    for (std::uint32_t surface = 0; surface < seeds.size(); ++surface) {
-        for (const Seed& seed : seeds[surface]) {
-            const std::uint32_t junction = junctions.nearest(seed.position);
-            if (junction != SeedGrid::none &&
-                distance(junctions.point(junction), seed.position) < junction_zone * sizes.at(seed.position)) {
-                continue;
-            }
-            for (const std::uint32_t t : grid.candidates(seed.position)) {
-                const double square =
-                    complex.sheet[t] == surface ? horizon * horizon : grid.squared_distance_to(t, seed.position);
-                const double size = sizes.at(centroid(corners(complex, t)));
-                const double enough = screened * std::sqrt(spacing * std::sqrt(square));
-                if (square < horizon * horizon && size > enough) {
-                    leaky[t] = 1;
-                }
-            }
-        }
-    }
-    std::vector<FinerPlace> places;
-    for (std::uint32_t t = 0; t < leaky.size(); ++t) {
-        if (leaky[t] != 0) {
-            places.push_back(place_of(complex, t));
-        }
-    }
-    return places;
 }
 
 /// Points at equal places become one.
@@ -410,8 +314,8 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         }
         report_progress(progress_, "seeding faults", 1 - 1 / (1 + 0.2 * passes_));
         seed(pass, sizes);
-        if (!last &&
-            mesher_->refine(leaks(pass.complex, pass.seeded.seeds, sizes), paired ? halvings : exact_halvings)) {
+        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes),
+                                     paired ? halvings : exact_halvings)) {
             continue;
         }
         if (!paired) {

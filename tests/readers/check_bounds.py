@@ -16,7 +16,7 @@ import pyopenvdb
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from check_ground import ground_of
+from check_ground import ground_of, outer_facets
 from check_vtu import read, tetrahedra, volumes
 
 
@@ -119,7 +119,7 @@ def main():
             if args.height and polygon:
                 expected = polygon.area * args.height
                 assert abs(size[inside].sum() / expected - 1) < 0.005, f"volume {size[inside].sum()}, not {expected}"
-                walls = wall_area(grid, points, polygon)
+                walls = wall_area(grid, polygon)
                 result[path + " walls"] = walls
                 assert abs(walls / (polygon.perimeter * args.height) - 1) < max(0.001, args.strays), f"walls {walls}, not {polygon.perimeter * args.height}"
         elif path.endswith(".vdb"):
@@ -143,19 +143,9 @@ def main():
     print(json.dumps(result))
 
 
-def wall_area(grid, points, polygon):
+def wall_area(grid, polygon):
     """Of the facets of cells inside that lie on an edge of the polygon."""
-    chosen = vtk.vtkThreshold()
-    chosen.SetInputData(grid)
-    chosen.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "in_extent")
-    chosen.SetLowerThreshold(1)
-    surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputConnection(chosen.GetOutputPort())
-    surface.Update()
-    shown = surface.GetOutput()
-    facets = vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    corners = vtk_to_numpy(shown.GetPoints().GetData())
-    a, b, c = (corners[facets[:, k]] for k in range(3))
+    a, b, c = outer_facets(grid)
     near = numpy.max([polygon.distance(p) for p in (a, b, c)], axis=0).min(axis=1) < 1e-3
     return (numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2)[near].sum()
 

@@ -33,6 +33,21 @@ def ground_of(path):
     return height
 
 
+def outer_facets(grid):
+    """Corners of the facets around the cells inside: three arrays of places."""
+    chosen = vtk.vtkThreshold()
+    chosen.SetInputData(grid)
+    chosen.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "in_extent")
+    chosen.SetLowerThreshold(1)
+    surface = vtk.vtkDataSetSurfaceFilter()
+    surface.SetInputConnection(chosen.GetOutputPort())
+    surface.Update()
+    shown = surface.GetOutput()
+    facets = vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    corners = vtk_to_numpy(shown.GetPoints().GetData())
+    return [corners[facets[:, k]] for k in range(3)]
+
+
 def main():
     height = ground_of(sys.argv[1])
     tolerance = float(sys.argv[4]) if len(sys.argv) > 4 else 2.0
@@ -45,25 +60,9 @@ def main():
     over = (points[used, 2] - height(points[used])).max()
     assert over < tolerance, f"VTU: a node is {over} above the ground"
 
-    # The surface of the cells inside: where it looks up, it is the ground.
-    chosen = vtk.vtkThreshold()
-    chosen.SetInputData(grid)
-    chosen.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "in_extent")
-    chosen.SetLowerThreshold(1)
-    surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputConnection(chosen.GetOutputPort())
-    normals = vtk.vtkPolyDataNormals()
-    normals.SetInputConnection(surface.GetOutputPort())
-    normals.ComputeCellNormalsOn()
-    normals.SplittingOff()
-    normals.AutoOrientNormalsOn()
-    normals.Update()
-    shown = normals.GetOutput()
-    facets = vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    corners = vtk_to_numpy(shown.GetPoints().GetData())
-    middle = corners[facets].mean(axis=1)
+    a, b, c = outer_facets(grid)  # of them those at the ground's height are the ground
+    middle = (a + b + c) / 3
     near = abs(middle[:, 2] - height(middle)) < tolerance
-    a, b, c = (corners[facets[:, k]] for k in range(3))
     plan = abs(numpy.cross(b - a, c - a)[:, 2]) / 2
     box = grid.GetBounds()
     share = plan[near].sum() / ((box[1] - box[0]) * (box[3] - box[2]))

@@ -18,7 +18,37 @@ namespace {
 using Corner = CollapseImage::Corner;
 using Cell = CollapseImage::Cell;
 
+constexpr double own_reach = 1.2;      ///< over the width that goes with a point's edges
 constexpr double close_to_wall = 0.1;  ///< over the spacing
+
+/// How far a point's own seeds are from it at most: their width is in proportion to the triangles. Others may stand by
+/// it that were added where the seeds let an edge through.
+std::map<Vec3, double> reach_of_own_seeds(const Model& model) {
+    struct Edges {
+        double sum = 0;
+        int count = 0;
+    };
+    std::map<Vec3, Edges> edges_at;
+    for (const Fault& fault : model.faults) {
+        for (const Surface* part : {&fault.sheet, &fault.margin}) {
+            for (const Triangle& t : part->triangles) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Vec3& a = part->vertices[t[k]];
+                    const Vec3& b = part->vertices[t[(k + 1) % 3]];
+                    for (const Vec3& end : {a, b}) {
+                        edges_at[end].sum += own_reach * fault.width / fault.spacing * distance(a, b);
+                        ++edges_at[end].count;
+                    }
+                }
+            }
+        }
+    }
+    std::map<Vec3, double> result;
+    for (const auto& [p, edges] : edges_at) {
+        result[p] = edges.sum / edges.count;
+    }
+    return result;
+}
 
 /// Where seeds are to meet: each mirrored pair halfway between its seeds; pairs about a junction's point in that point.
 /// At a junction with a selected fault those of the others meet as well: a gap that ran on through a wall would leave
@@ -32,10 +62,13 @@ std::vector<FaultNode> fault_nodes(const Model& model, const std::vector<char>& 
     }
     std::map<Vec3, std::set<std::size_t>> sheets_at;
     for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        for (const Vec3& p : model.faults[f].sheet.vertices) {
-            sheets_at[p].insert(f);
+        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {  // junctions go on outside
+            for (const Vec3& p : part->vertices) {
+                sheets_at[p].insert(f);
+            }
         }
     }
+    const std::map<Vec3, double> own_reach_at = reach_of_own_seeds(model);
     std::erase_if(sheets_at, [&](const auto& at) {
         return at.second.size() < 2 || std::ranges::none_of(at.second, [&](std::size_t f) { return selected[f] != 0; });
     });
@@ -56,7 +89,8 @@ std::vector<FaultNode> fault_nodes(const Model& model, const std::vector<char>& 
             bool meets = selected[f] != 0;
             for (auto at = sheets_at.lower_bound({middle.x - nearest, -max_coordinate, -max_coordinate});
                  at != sheets_at.end() && at->first.x <= middle.x + nearest; ++at) {
-                if (at->second.contains(f) && distance(at->first, middle) <= nearest) {
+                if (at->second.contains(f) && distance(at->first, middle) <= nearest &&
+                    distance(at->first, fault.seeds[k].position) <= own_reach_at.at(at->first)) {
                     nearest = distance(at->first, middle);
                     base = at->first;
                     meets = true;

@@ -41,14 +41,58 @@ double angle_at(const Vec3& apex, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ComplexEditor::ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes)
+ComplexEditor::ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes,
+                             std::span<const char> bounds)
     : field_(sizes) {
     for (const Vec3& p : complex.points) {
         add_point(p);
     }
     for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
-        add_triangle(complex.triangles[t], {{}, numbering.of_triangle[t], complex.sheet[t], true});
+        add_triangle(complex.triangles[t], {{}, numbering.of_triangle[t], complex.sheet[t]});
     }
+    number_bounds(bounds);
+}
+
+/// Pieces by their first triangles.
+void ComplexEditor::number_bounds(std::span<const char> bounds) {
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t first = 0; first < triangles_.size(); ++first) {
+        const std::uint32_t sheet = triangles_[first].sheet;
+        if (sheet >= bounds.size() || bounds[sheet] == 0 || triangles_[first].bound != unbound) {
+            continue;
+        }
+        bounded_ = true;
+        triangles_[first].bound = first;
+        waiting.push_back(first);
+        while (!waiting.empty()) {
+            const Triangle corners = triangles_[waiting.back()].corners;
+            waiting.pop_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (const std::uint32_t t : edge_triangles(corners[k], corners[(k + 1) % 3])) {
+                    if (triangles_[t].sheet == sheet && triangles_[t].bound == unbound) {
+                        triangles_[t].bound = first;
+                        waiting.push_back(t);
+                    }
+                }
+            }
+        }
+    }
+}
+
+ComplexEditor::Ties ComplexEditor::ties(const std::vector<std::uint32_t>& of_triangles) const {
+    Ties result;
+    for (const std::uint32_t t : of_triangles) {
+        if (triangles_[t].bound != unbound) {
+            result.push_back(triangles_[t].bound);
+        }
+    }
+    std::ranges::sort(result);
+    result.erase(std::ranges::unique(result).begin(), result.end());
+    return result;
+}
+
+bool ComplexEditor::may_join(std::uint32_t from, std::uint32_t into) const {
+    return !bounded_ || std::ranges::includes(ties_at(into), ties_at(from));
 }
 
 TriangleCorners ComplexEditor::corners(std::uint32_t t) const {
@@ -66,7 +110,7 @@ std::uint32_t ComplexEditor::add_point(const Vec3& p) {
 
 void ComplexEditor::add_triangle(const Triangle& t, const WorkTriangle& like) {
     const auto number = static_cast<std::uint32_t>(triangles_.size());
-    triangles_.push_back({t, like.patch, like.sheet, true});
+    triangles_.push_back({t, like.patch, like.sheet, like.bound, true});
     for (const std::uint32_t v : t) {
         star_[v].push_back(number);
     }
@@ -79,10 +123,13 @@ void ComplexEditor::remove_triangle(std::uint32_t t) {
     }
 }
 
-bool ComplexEditor::present(const Triangle& t) const {
-    return std::ranges::any_of(star_[t[0]], [&](std::uint32_t k) {
-        return has(triangles_[k].corners, t[1]) && has(triangles_[k].corners, t[2]);
-    });
+std::optional<std::uint32_t> ComplexEditor::present(const Triangle& t) const {
+    for (const std::uint32_t k : star_[t[0]]) {
+        if (has(triangles_[k].corners, t[1]) && has(triangles_[k].corners, t[2])) {
+            return k;
+        }
+    }
+    return {};
 }
 
 std::vector<std::uint32_t> ComplexEditor::update_sizes() {
@@ -264,7 +311,7 @@ bool ComplexEditor::keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) c
 
 bool ComplexEditor::collapse(std::uint32_t u, std::uint32_t v) {
     const std::vector<std::uint32_t> of_edge = edge_triangles(u, v);
-    if (of_edge.empty()) {
+    if (of_edge.empty() || !may_join(u, v)) {
         return false;
     }
     const PointKind kind = classify(u).kind;
@@ -290,7 +337,11 @@ void ComplexEditor::merge(std::uint32_t from, std::uint32_t into) {
         remove_triangle(t);
     }
     for (const WorkTriangle& t : changed) {
-        if (!present(t.corners)) {
+        const std::optional<std::uint32_t> other = present(t.corners);
+        if (other && t.bound != unbound && triangles_[*other].bound == unbound) {
+            remove_triangle(*other);
+            add_triangle(t.corners, t);
+        } else if (!other) {
             add_triangle(t.corners, t);
         }
     }

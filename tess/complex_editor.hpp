@@ -6,6 +6,8 @@
 /// junctions stay what they are. Whatever is done, sheets that share a junction go on sharing its points.
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "tess/fault_complex.hpp"
@@ -18,13 +20,21 @@ enum class PointKind : std::uint8_t { interior, chain, node };
 
 class ComplexEditor {
   public:
-    /// Patches are those of the complex as given; they keep their numbers.
-    ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes);
+    /// Patches are those of the complex as given; they keep their numbers. `bounds`, by sheet: those the model ends at;
+    /// none when empty.
+    ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes,
+                  std::span<const char> bounds = {});
+
+    /// What a point is bound to: ascending numbers of pieces of the bounds, each connected within its sheet. Its points
+    /// stay on them whatever happens: a point is only ever made one with another that is on the same pieces at least.
+    using Ties = std::vector<std::uint32_t>;
+    static constexpr std::uint32_t unbound = ~std::uint32_t{0};
 
     struct WorkTriangle {
         Triangle corners{};
         std::uint32_t patch = 0;
         std::uint32_t sheet = 0;
+        std::uint32_t bound = unbound;  ///< piece
         bool alive = true;
     };
     struct Classified {
@@ -48,6 +58,11 @@ class ComplexEditor {
     [[nodiscard]] std::vector<std::uint32_t> edge_triangles(std::uint32_t u, std::uint32_t v) const;
     [[nodiscard]] bool is_feature(const std::vector<std::uint32_t>& of_edge) const;
     [[nodiscard]] Classified classify(std::uint32_t v) const;
+    [[nodiscard]] Ties ties(const std::vector<std::uint32_t>& of_triangles) const;
+    [[nodiscard]] Ties ties_at(std::uint32_t v) const { return bounded_ ? ties(star_[v]) : Ties{}; }
+
+    /// Is `into` on all the bounds that `from` is on?
+    [[nodiscard]] bool may_join(std::uint32_t from, std::uint32_t into) const;
 
     /// All edges, ascending.
     [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges() const;
@@ -65,7 +80,8 @@ class ComplexEditor {
     /// Moves u into v if the shapes, the topology and the kinds of the two allow it.
     bool collapse(std::uint32_t u, std::uint32_t v);
 
-    /// Makes one point of two, come what may; triangles that coincide then become one.
+    /// Makes one point of two, come what may; triangles that coincide then become one: that of a bound if there is one.
+    /// \pre may_join(from, into)
     void merge(std::uint32_t from, std::uint32_t into);
 
     void remove_triangle(std::uint32_t t);
@@ -78,11 +94,13 @@ class ComplexEditor {
   private:
     std::uint32_t add_point(const Vec3& p);
     void add_triangle(const Triangle& t, const WorkTriangle& like);
-    [[nodiscard]] bool present(const Triangle& t) const;
+    void number_bounds(std::span<const char> bounds);
+    [[nodiscard]] std::optional<std::uint32_t> present(const Triangle& t) const;
     [[nodiscard]] bool keeps_topology(std::uint32_t u, std::uint32_t v, std::size_t shared) const;
     [[nodiscard]] bool keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) const;
 
     const SizeField& field_;
+    bool bounded_ = false;
     std::vector<Vec3> points_;
     std::vector<double> sizes_of_;
     std::vector<char> fixed_;

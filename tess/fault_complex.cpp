@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -208,6 +209,36 @@ void restore_sense(FaultComplex& complex) {
         for (const std::uint32_t t : piece) {
             if (sense[t] == wrong) {
                 std::swap(complex.triangles[t][1], complex.triangles[t][2]);
+            }
+        }
+    }
+}
+
+void halve_corners(FaultComplex& complex, const std::vector<char>& marked) {
+    const EdgeTable edges(complex.triangles);
+    std::vector<std::array<std::uint32_t, 3>> halves;  // ends and middle
+    for (const EdgeTable::Edge& e : edges.edges()) {
+        const auto of_edge = edges.triangles(e);
+        if (of_edge.size() == 2 && !is_smooth(complex, of_edge) &&
+            std::ranges::all_of(of_edge, [&](std::uint32_t t) { return marked[complex.sheet[t]] != 0; })) {
+            halves.push_back({e.a, e.b, static_cast<std::uint32_t>(complex.points.size())});
+            complex.points.push_back(0.5 * (complex.points[e.a] + complex.points[e.b]));
+        }
+    }
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> middle_of;
+    for (const auto& [a, b, middle] : halves) {
+        middle_of[{a, b}] = middle;
+    }
+    for (std::uint32_t t = 0; t < complex.triangles.size() && !halves.empty(); ++t) {  // new ones are looked at as well
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = complex.triangles[t][k];
+            const std::uint32_t b = complex.triangles[t][(k + 1) % 3];
+            const auto half = middle_of.find({std::min(a, b), std::max(a, b)});
+            if (half != middle_of.end()) {
+                const std::uint32_t apex = complex.triangles[t][(k + 2) % 3];
+                complex.triangles[t] = {a, half->second, apex};
+                complex.triangles.push_back({half->second, b, apex});
+                complex.sheet.push_back(complex.sheet[t]);
             }
         }
     }

@@ -70,6 +70,9 @@ Patches patches(const FaultComplex& complex, const EdgeTable& edges);
 /// that of the larger area, piece by piece.
 void restore_sense(FaultComplex& complex);
 
+/// Halves the edges in which two triangles of different marked sheets meet and nothing else does: corners.
+void halve_corners(FaultComplex& complex, const std::vector<char>& marked);
+
 /// The angles between neighbouring triangles round an edge, in radians, in the order of their directions; a rim has
 /// none.
 struct Fan {

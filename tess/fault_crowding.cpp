@@ -55,7 +55,7 @@ std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
 }
 
 std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                                       const SizeField& sizes) {
+                                       const SizeField& sizes, const std::vector<char>& walls) {
     const double spacing = sizes.spacing();
     const double horizon = 0.75 * spacing;
     std::vector<TriangleCorners> triangles;
@@ -83,8 +83,9 @@ std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::v
                 continue;
             }
             for (const std::uint32_t t : grid.candidates(seed.position)) {
-                const double square =
-                    complex.sheet[t] == surface ? horizon * horizon : grid.squared_distance_to(t, seed.position);
+                const bool harmless =
+                    complex.sheet[t] == surface || (walls[complex.sheet[t]] != 0 && walls[surface] != 0);
+                const double square = harmless ? horizon * horizon : grid.squared_distance_to(t, seed.position);
                 const double size = sizes.at(centroid(corners(complex, t)));
                 const double enough = screened * std::sqrt(spacing * std::sqrt(square));
                 if (square < horizon * horizon && size > enough) {

@@ -28,8 +28,8 @@ std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
 /// vertex at least r_p away on the other side lies in an empty ball whose section with the sheet has a radius of
 /// √(d r_p) or more about the crossing: no such section is free of the sheet's own seeds where its triangles are
 /// smaller than about 1.1 √(s d). Seeds of the junction itself
-/// don't count.
+/// don't count, nor do those of one of the `walls`, by surface, for another: edges over their corners harm nothing.
 std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                                       const SizeField& sizes);
+                                       const SizeField& sizes, const std::vector<char>& walls);
 
 }  // namespace terratet

@@ -60,13 +60,13 @@ void append(FaultComplex& to, const FaultComplex& more) {
 
 }  // namespace
 
-FaultMesher::FaultMesher(FaultComplex cut, double spacing, double widest)
-    : cut_(std::move(cut)), widest_(widest), sizes_(spacing) {}
+FaultMesher::FaultMesher(FaultComplex cut, double spacing, double widest, std::vector<char> bounds)
+    : cut_(std::move(cut)), widest_(widest), bounds_(std::move(bounds)), sizes_(spacing) {}
 
 FaultRemesher::Result FaultMesher::mesh() {
     if (!remesher_ || (!staying_.triangles.empty() && !sizes_.uniform())) {
         staying_ = {};
-        remesher_ = std::make_unique<FaultRemesher>(sizes_.uniform() ? without_staying() : cut_, sizes_, zip);
+        remesher_ = std::make_unique<FaultRemesher>(sizes_.uniform() ? without_staying() : cut_, sizes_, zip, bounds_);
         patched_ = false;
     } else {
         patched_ = true;

@@ -29,7 +29,8 @@ class FaultMesher {
   public:
     /// \param cut     sheets that meet in shared edges only (fault_cut.hpp)
     /// \param widest  radians; pieces with wider angles are remeshed even if their spacing suits
-    FaultMesher(FaultComplex cut, double spacing, double widest);
+    /// \param bounds  by surface: does the model end at it?
+    FaultMesher(FaultComplex cut, double spacing, double widest, std::vector<char> bounds);
 
     /// The sheets at the sizes now wanted. Pieces that suit the spacing as they came and meet no other sheet are kept
     /// as they are until something is refined.
@@ -59,6 +60,7 @@ class FaultMesher {
 
     FaultComplex cut_;
     double widest_;
+    std::vector<char> bounds_;
     SizeField sizes_;
     std::vector<WantedSize> wishes_;
     FaultComplex staying_;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double bend_factor = 1.1;  ///< on the protection radius of bent surfaces
 constexpr double flat = 0.9999;      ///< cosine of the turn from which a surface counts as bent
+constexpr double straight = -0.95;   ///< cosine of the angle from which two half-sheets make no corner
 constexpr double aside = 2.0 / 3;    ///< share of half a junction's sector that a seed is turned from its half-sheet
 
 /// Triangles round a point that hang together over smooth edges: a sheet, or a half-sheet where others join it.
@@ -105,6 +106,9 @@ class PairedSeeds {
             return;
         }
         const Vec3 tangent = junction_tangent(v);
+        if (all.size() == 2) {
+            guard_corner(p, half, tangent, all);
+        }
         for (const PointFan& fan : all) {
             Vec3 along = fan.direction - dot(fan.direction, tangent) * tangent;
             along = unit(along - dot(along, fan.normal) * fan.normal);
@@ -119,6 +123,18 @@ class PairedSeeds {
                 plus = 0.5 * plus;
                 minus = 0.5 * minus;
             }
+        }
+    }
+
+    /// Where two half-sheets meet in a corner and nothing else does, their own pairs leave its wide side open: one more
+    /// stands across it.
+    void guard_corner(const Vec3& p, double half, const Vec3& tangent, const std::vector<PointFan>& both) {
+        const Vec3 one = unit(both[0].direction - dot(both[0].direction, tangent) * tangent);
+        const Vec3 other = unit(both[1].direction - dot(both[1].direction, tangent) * tangent);
+        if (dot(one, other) > straight) {
+            const Vec3 in = half * unit(one + other);
+            const double side = dot(in, both[0].normal) > 0 ? 1 : -1;
+            collector_.add(both[0].surface, p + side * in, p - side * in);
         }
     }
 

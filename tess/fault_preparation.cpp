@@ -271,8 +271,10 @@ void FaultPreparer::extend(std::uint32_t number) {
 
 std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     std::vector<char> active;
+    std::vector<char> walls;
     for (const Candidate& candidate : candidates_) {
         active.push_back(candidate.active ? 1 : 0);
+        walls.push_back(candidate.surface->kind == SurfaceKind::domain ? 1 : 0);
     }
     mesher_->keep(active);
     const SizeField& sizes = mesher_->sizes();
@@ -309,12 +311,13 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
                 pass.complex = std::move(rounded);
             }
         }
+        halve_corners(pass.complex, walls);
         for (Vec3& p : pass.complex.points) {
             p = frame_.snapped(p);
         }
         report_progress(progress_, "seeding faults", 1 - 1 / (1 + 0.2 * passes_));
         seed(pass, sizes);
-        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes),
+        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes, walls),
                                      paired ? halvings : exact_halvings)) {
             continue;
         }
@@ -382,8 +385,13 @@ void FaultPreparer::cut() {
                    "faults all over");
         }
     } while (cut_.tangled);
+    std::vector<char> bounds;
+    for (const Candidate& candidate : candidates_) {
+        bounds.push_back(is_bound(candidate.surface->kind) ? 1 : 0);
+    }
     mesher_ = std::make_unique<FaultMesher>(std::move(cut_.complex), scale_.spacing,
-                                            options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi);
+                                            options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi,
+                                            std::move(bounds));
     if (options_.refine) {
         mesher_->want(places_near(samples_, mesher_->cut(), scale_.spacing));
     }
@@ -470,9 +478,6 @@ bool FaultPreparer::seal(Pass& pass) {
     std::vector<Fault> faults;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
-        if (candidates_[k].surface->kind == SurfaceKind::domain) {
-            continue;  // walls bar nothing; more seeds at their corners would be in the way when they are collapsed
-        }
         if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
             faults.push_back(std::move(piece.fault));
             numbers.push_back(k);
@@ -502,17 +507,22 @@ bool FaultPreparer::seal(Pass& pass) {
     return true;
 }
 
-/// The smaller one of the two involved goes.
+/// The smaller one of the two involved goes, but never a bound: where two of these leak, their accounts say so.
 bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
                                    const std::vector<std::uint32_t>& numbers) {
+    const auto bounds = [](const Candidate& candidate) { return is_bound(candidate.surface->kind); };
     bool any = false;
     for (const FaultSeal::Open& leak : open) {
         Candidate& crossed = candidates_[numbers[leak.fault]];
         Candidate& other = candidates_[numbers[leak.owner]];
-        if (crossed.active && other.active) {
-            refuse(other.area_inside < crossed.area_inside ? other : crossed,
-                   "cannot be sealed at " + place_text(frame_.to_world(leak.place)) +
-                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
+        const std::string what = "cannot be sealed at " + place_text(frame_.to_world(leak.place)) + ": edges ";
+        const std::string advice = "use a finer --fault-spacing";
+        if (bounds(crossed) && bounds(other)) {
+            crossed.account.reason = what + "may cross it there; " + advice;
+        } else if (crossed.active && other.active) {
+            const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
+            refuse(crossed_stays ? other : crossed,
+                   what + "would cross it there whatever its seeds; " + advice +
                        (options_.mode == FaultMode::paired ? " or the exact fault mode" : ""));
             any = true;
         }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -84,9 +85,9 @@ using LineTarget = Target<Kernel::Segment_3, CGAL::AABB_segment_primitive>;
 
 class FaultRemesher::Impl {
   public:
-    Impl(const FaultComplex& complex, const SizeField& sizes, double snap)
+    Impl(const FaultComplex& complex, const SizeField& sizes, double snap, std::span<const char> bounds)
         : numbering_(patches(complex, EdgeTable(complex.triangles))),
-          editor_(complex, numbering_, sizes),
+          editor_(complex, numbering_, sizes, bounds),
           sizes_(sizes),
           snap_(snap) {
         set_targets(complex);
@@ -132,6 +133,8 @@ class FaultRemesher::Impl {
     }
 
   private:
+    using Ties = ComplexEditor::Ties;
+
     void set_targets(const FaultComplex& complex) {
         for (std::uint32_t k = 0; k < numbering_.count; ++k) {
             surfaces_.push_back(std::make_unique<PatchTarget>());
@@ -146,10 +149,14 @@ class FaultRemesher::Impl {
         const EdgeTable edges(complex.triangles);
         for (const EdgeTable::Edge& e : edges.edges()) {
             if (!is_smooth(complex, edges.triangles(e))) {
-                lines_.add({point(complex.points[e.a]), point(complex.points[e.b])});
+                const auto of_edge = edges.triangles(e);
+                lines_[editor_.ties({of_edge.begin(), of_edge.end()})].add(
+                    {point(complex.points[e.a]), point(complex.points[e.b])});
             }
         }
-        lines_.build();
+        for (auto& [ties, lines] : lines_) {
+            lines.build();
+        }
     }
 
     /// The sharpest turns of rims and junctions first, and none near another, or a ragged rim would stay as fine as it
@@ -198,6 +205,12 @@ class FaultRemesher::Impl {
 
     [[nodiscard]] Vec3 on_surface(std::uint32_t patch, const Vec3& p) const { return surfaces_[patch]->nearest(p); }
 
+    /// On a line on all these bounds, if there is one.
+    [[nodiscard]] Vec3 on_line(const Ties& ties, const Vec3& p) const {
+        const auto lines = lines_.find(ties);
+        return lines == lines_.end() ? p : lines->second.nearest(p);
+    }
+
     void split_long() {
         for (bool any = true; any;) {
             any = false;
@@ -211,7 +224,7 @@ class FaultRemesher::Impl {
                     continue;
                 }
                 const Vec3 middle = 0.5 * (editor_.point(u) + editor_.point(v));
-                Vec3 at = editor_.is_feature(of_edge) ? lines_.nearest(middle)
+                Vec3 at = editor_.is_feature(of_edge) ? on_line(editor_.ties(of_edge), middle)
                                                       : on_surface(editor_.triangles()[of_edge[0]].patch, middle);
                 if (distance(at, middle) > 0.2 * wanted) {
                     at = middle;
@@ -293,7 +306,7 @@ class FaultRemesher::Impl {
         const double other = editor_.edge_length(v, along[1]) / editor_.target(v, along[1]);
         const Vec3& farther = editor_.point(one > other ? along[0] : along[1]);
         const double step = 0.5 * std::abs(one - other) * editor_.size(v) * share;
-        return lines_.nearest(editor_.point(v) + step * unit(farther - editor_.point(v)));
+        return on_line(editor_.ties_at(v), editor_.point(v) + step * unit(farther - editor_.point(v)));
     }
 
     [[nodiscard]] Vec3 centred(std::uint32_t v, double share) const {
@@ -447,19 +460,24 @@ class FaultRemesher::Impl {
             const double along = dot(c[apex] - editor_.point(a), editor_.point(b) - editor_.point(a)) / (base * base);
             if (along < 0.1 || along > 0.9) {
                 unite(ends[apex], along < 0.5 ? a : b);
-            } else {
+            } else if (const Ties of_apex = editor_.ties_at(ends[apex]),
+                       of_base = editor_.ties(editor_.edge_triangles(a, b));
+                       std::ranges::includes(of_apex, of_base) || std::ranges::includes(of_base, of_apex)) {
                 const Vec3 foot = editor_.point(a) + along * (editor_.point(b) - editor_.point(a));
                 unite(ends[apex], editor_.split_edge(a, b, foot));
             }
         }
     }
 
-    /// The one that is freer to move gives way.
+    /// The one that is freer to move gives way; two that are bound to different places stay.
     void unite(std::uint32_t u, std::uint32_t v) {
-        if (editor_.classify(u).kind > editor_.classify(v).kind) {
+        if (!editor_.may_join(u, v) ||
+            (editor_.classify(u).kind > editor_.classify(v).kind && editor_.may_join(v, u))) {
             std::swap(u, v);
         }
-        editor_.merge(u, v);
+        if (editor_.may_join(u, v)) {
+            editor_.merge(u, v);
+        }
     }
 
     [[nodiscard]] bool is_needle(std::uint32_t t) const {
@@ -468,46 +486,57 @@ class FaultRemesher::Impl {
         return length(area_vector(c)) < 1e-4 * side * side;
     }
 
-    /// True when v is gone.
-    bool snap_onto(std::uint32_t v, std::uint32_t t) {
+    /// Where a point snaps onto a triangle.
+    struct Foot {
+        Vec3 place;
+        std::vector<std::uint32_t> of;  ///< a corner, the ends of an edge, or all three
+        Ties ties;
+    };
+
+    [[nodiscard]] Foot foot_on(std::uint32_t t, const Vec3& p, double touching) const {
         const TriangleCorners c = editor_.corners(t);
-        const Vec3 foot = closest_point_on_triangle(editor_.point(v), c[0], c[1], c[2]);
-        const double touching = 0.05 * editor_.size(v);
         const Triangle ends = editor_.triangles()[t].corners;
-        std::uint32_t into = 0;
-        bool is_corner = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (distance(c[k], foot) < touching) {
-                into = ends[k];
-                is_corner = true;
+        const Vec3 place = closest_point_on_triangle(p, c[0], c[1], c[2]);
+        for (std::size_t k = 3; k-- > 0;) {
+            if (distance(c[k], place) < touching) {
+                return {c[k], {ends[k]}, editor_.ties_at(ends[k])};
             }
         }
-        if (!is_corner) {
-            into = new_point_at(t, foot, touching);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 along = c[(k + 1) % 3] - c[k];
+            const Vec3 on_edge = c[k] + dot(place - c[k], along) / squared_length(along) * along;
+            if (distance(on_edge, place) < touching) {
+                const std::uint32_t next = ends[(k + 1) % 3];
+                Ties ties = editor_.ties(editor_.edge_triangles(ends[k], next));
+                return {ties.empty() ? place : on_edge, {ends[k], next}, std::move(ties)};
+            }
         }
+        return {place, {ends[0], ends[1], ends[2]}, editor_.ties({t})};
+    }
+
+    /// The point of the two that has more ties stays where it is. True when v is gone, or cannot be snapped.
+    bool snap_onto(std::uint32_t v, std::uint32_t t) {
+        const Foot foot = foot_on(t, editor_.point(v), 0.05 * editor_.size(v));
+        const Ties ties = editor_.ties_at(v);
+        const bool may_go = std::ranges::includes(foot.ties, ties);
+        const bool may_stay = std::ranges::includes(ties, foot.ties);
+        if (!may_go && !may_stay) {
+            return true;
+        }
+        const bool is_corner = foot.of.size() == 1;
+        const std::uint32_t into = is_corner             ? foot.of[0]
+                                   : foot.of.size() == 2 ? editor_.split_edge(foot.of[0], foot.of[1], foot.place)
+                                                         : editor_.split_triangle(t, foot.place);
         const PointKind kind = editor_.classify(v).kind;
-        if (is_corner && editor_.classify(into).kind > kind) {
+        if (!may_stay || (may_go && is_corner && editor_.classify(into).kind > kind)) {
             editor_.merge(v, into);
             return true;
         }
-        if (kind == PointKind::interior && !is_corner) {
-            editor_.move(v, 0.5 * (editor_.point(v) + foot));
+        if (ties.empty() && kind == PointKind::interior && !is_corner) {
+            editor_.move(v, 0.5 * (editor_.point(v) + foot.place));
         }
         editor_.merge(into, v);
         return false;
-    }
-
-    std::uint32_t new_point_at(std::uint32_t t, const Vec3& foot, double touching) {
-        const TriangleCorners c = editor_.corners(t);
-        const Triangle ends = editor_.triangles()[t].corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 along = c[(k + 1) % 3] - c[k];
-            const double share = dot(foot - c[k], along) / squared_length(along);
-            if (distance(c[k] + share * along, foot) < touching) {
-                return editor_.split_edge(ends[k], ends[(k + 1) % 3], foot);
-            }
-        }
-        return editor_.split_triangle(t, foot);
     }
 
     /// Merging may leave a triangle that lies on others of its sheet and hangs on them by some of its edges alone: a
@@ -643,11 +672,12 @@ class FaultRemesher::Impl {
     int passes_ = 0;
     std::vector<char> awake_;
     std::vector<std::unique_ptr<PatchTarget>> surfaces_;
-    LineTarget lines_;
+    std::map<Ties, LineTarget> lines_;  ///< rims and junctions, by the bounds they are on
 };
 
-FaultRemesher::FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap)
-    : impl_(std::make_unique<Impl>(complex, sizes, snap)) {}
+FaultRemesher::FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap,
+                             std::span<const char> bounds)
+    : impl_(std::make_unique<Impl>(complex, sizes, snap, bounds)) {}
 
 FaultRemesher::~FaultRemesher() = default;
 

@@ -5,6 +5,7 @@
 /// Internal: a fault complex remeshed to the seeds' spacing, all sheets at once, so that junctions stay conforming.
 
 #include <memory>
+#include <span>
 
 #include "tess/fault_complex.hpp"
 #include "tess/size_field.hpp"
@@ -15,8 +16,9 @@ namespace terratet {
 class FaultRemesher {
   public:
     /// Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it. `sizes` must outlive
-    /// the remesher and may change between passes.
-    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap);
+    /// the remesher and may change between passes. `bounds`, by sheet, marks those the model ends at: they go before
+    /// all others, whose points join them and never the other way round, so that bounds in a plane stay in it.
+    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap, std::span<const char> bounds = {});
     ~FaultRemesher();
 
     struct Result {

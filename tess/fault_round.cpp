@@ -44,6 +44,13 @@ std::vector<Vec3> round_bends(FaultComplex& complex, const SizeField& sizes) {
             free[e.b] = 0;
         }
     }
+    std::vector<std::int64_t> sheet_at(count, -1);
+    for (std::size_t t = 0; t < complex.triangles.size(); ++t) {  // sheets may touch in a point alone
+        for (const std::uint32_t v : complex.triangles[t]) {
+            free[v] = sheet_at[v] < 0 || sheet_at[v] == complex.sheet[t] ? free[v] : 0;
+            sheet_at[v] = complex.sheet[t];
+        }
+    }
     std::vector<char> unresolved(count, 0);
     for (int round = 0; round < rounds; ++round) {
         const std::vector<Vec3> normals = vertex_normals({complex.points, complex.triangles});

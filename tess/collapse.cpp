@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "tess/collapse_image.hpp"
@@ -18,97 +17,7 @@ namespace {
 using Corner = CollapseImage::Corner;
 using Cell = CollapseImage::Cell;
 
-constexpr double own_reach = 1.2;      ///< over the width that goes with a point's edges
 constexpr double close_to_wall = 0.1;  ///< over the spacing
-
-/// How far a point's own seeds are from it at most: their width is in proportion to the triangles. Others may stand by
-/// it that were added where the seeds let an edge through.
-std::map<Vec3, double> reach_of_own_seeds(const Model& model) {
-    struct Edges {
-        double sum = 0;
-        int count = 0;
-    };
-    std::map<Vec3, Edges> edges_at;
-    for (const Fault& fault : model.faults) {
-        for (const Surface* part : {&fault.sheet, &fault.margin}) {
-            for (const Triangle& t : part->triangles) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const Vec3& a = part->vertices[t[k]];
-                    const Vec3& b = part->vertices[t[(k + 1) % 3]];
-                    for (const Vec3& end : {a, b}) {
-                        edges_at[end].sum += own_reach * fault.width / fault.spacing * distance(a, b);
-                        ++edges_at[end].count;
-                    }
-                }
-            }
-        }
-    }
-    std::map<Vec3, double> result;
-    for (const auto& [p, edges] : edges_at) {
-        result[p] = edges.sum / edges.count;
-    }
-    return result;
-}
-
-/// Where seeds are to meet: each mirrored pair halfway between its seeds; pairs about a junction's point in that point.
-/// At a junction with a selected fault those of the others meet as well: a gap that ran on through a wall would leave
-/// it nothing to end at.
-std::vector<FaultNode> fault_nodes(const Model& model, const std::vector<char>& selected) {
-    std::map<std::pair<std::int32_t, Vec3>, std::uint32_t> vertex_at;
-    for (std::uint32_t v = 0; v < model.vertices.size(); ++v) {
-        if (model.vertices[v].role == Role::seed) {
-            vertex_at.try_emplace({model.vertices[v].owner, model.vertices[v].position}, v);
-        }
-    }
-    std::map<Vec3, std::set<std::size_t>> sheets_at;
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {  // junctions go on outside
-            for (const Vec3& p : part->vertices) {
-                sheets_at[p].insert(f);
-            }
-        }
-    }
-    const std::map<Vec3, double> own_reach_at = reach_of_own_seeds(model);
-    std::erase_if(sheets_at, [&](const auto& at) {
-        return at.second.size() < 2 || std::ranges::none_of(at.second, [&](std::size_t f) { return selected[f] != 0; });
-    });
-
-    std::vector<FaultNode> nodes;
-    std::map<Vec3, std::size_t> node_at;  // by base
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        const Fault& fault = model.faults[f];
-        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
-            const auto plus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k].position});
-            const auto minus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k + 1].position});
-            if (plus == vertex_at.end() || minus == vertex_at.end()) {
-                continue;
-            }
-            Vec3 base = model.frame.snapped(0.5 * (fault.seeds[k].position + fault.seeds[k + 1].position));
-            double nearest = 0.5 * fault.width * (1 + 1e-6);
-            const Vec3 middle = base;
-            bool meets = selected[f] != 0;
-            for (auto at = sheets_at.lower_bound({middle.x - nearest, -max_coordinate, -max_coordinate});
-                 at != sheets_at.end() && at->first.x <= middle.x + nearest; ++at) {
-                if (at->second.contains(f) && distance(at->first, middle) <= nearest &&
-                    distance(at->first, fault.seeds[k].position) <= own_reach_at.at(at->first)) {
-                    nearest = distance(at->first, middle);
-                    base = at->first;
-                    meets = true;
-                }
-            }
-            if (!meets) {
-                continue;
-            }
-            const auto [entry, fresh] = node_at.try_emplace(base, nodes.size());
-            if (fresh) {
-                nodes.push_back({base, {}});
-            }
-            std::vector<std::uint32_t>& seeds = nodes[entry->second].seeds;
-            seeds.insert(seeds.end(), {plus->second, minus->second});
-        }
-    }
-    return nodes;
-}
 
 /// Joins what can be joined: where a cell would lose its volume, its seeds give up, until none does. Every round takes
 /// something back for good, so it ends.
@@ -153,7 +62,7 @@ CellStates cell_states(const Model& model, const CellTable& before, const std::v
         states.fault.push_back(collapsed ? -1 : gap);
         states.beyond.push_back(beyond ? 1 : 0);
         states.in_extent.push_back(!beyond && model.domain.extent.contains(centroid) ? 1 : 0);
-        states.region.push_back(before.region[cell.parent]);
+        states.region.push_back(cell.made ? -1 : before.region[cell.parent]);
     }
     return states;
 }
@@ -295,8 +204,10 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     for (const Fault& fault : model.faults) {
         selected.push_back(which == Collapsing::all || is_bound(fault.sheet.kind) ? 1 : 0);
     }
-    std::vector<FaultNode> nodes = fault_nodes(model, selected);
-    const CollapseImage image = collapsed_image(mesh, nodes);
+    std::vector<FaultNode> nodes = fault_nodes(model, mesh, selected);
+    CollapseImage image = collapsed_image(mesh, nodes);
+    const bool exact = model.fault_options.mode == FaultMode::exact;
+    const std::vector<Vec3> uncut = exact ? image.cut_edges(model, selected) : std::vector<Vec3>{};
     CellStates states = cell_states(model, cells, selected, image);
     SplitImage split = split_nodes(model, selected, image, nodes, states);
 
@@ -310,22 +221,29 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     CollapseReport& report = result.report;
     report.dropped_cells =
         static_cast<std::size_t>(std::ranges::count_if(cells.fault, [](std::int32_t fault) { return fault >= 0; })) -
-        static_cast<std::size_t>(
-            std::ranges::count_if(image.cells(), [&](const Cell& cell) { return cells.fault[cell.parent] >= 0; }));
+        static_cast<std::size_t>(std::ranges::count_if(
+            image.cells(), [&](const Cell& cell) { return !cell.made && cells.fault[cell.parent] >= 0; }));
     report.added_places = image.added_nodes();
     report.split_places = split.split_places;
     report.split_area = split.split_area;
     const FaultProximity proximity(model.faults);
     for (const FaultNode& node : nodes) {
+        if (node.is_vertex() || node.state == FaultNode::State::joined || !model.domain.extent.contains(node.base)) {
+            continue;
+        }
         const std::int32_t fault = model.vertices[node.seeds[0]].owner;
         const double spacing = model.faults[static_cast<std::size_t>(fault)].spacing;
-        if (node.state != FaultNode::State::joined && model.domain.extent.contains(node.base) &&
-            proximity.distance_to_sheet(fault, node.base) < 1e-3 * spacing) {
+        if (proximity.distance_to_sheet(fault, node.base) < 1e-3 * spacing) {
             (node.state == FaultNode::State::apart ? report.apart : report.aside).push_back(node.base);
         }
     }
     for (std::size_t f = 0; f < model.faults.size(); ++f) {
         report.sheet_area += selected[f] != 0 ? statistics(model.faults[f].sheet).area : 0;
+    }
+    if (exact) {
+        std::ranges::copy_if(uncut, std::back_inserter(report.aside),
+                             [&](const Vec3& p) { return model.domain.extent.contains(p); });
+        std::ranges::copy(split.off_faults, std::back_inserter(report.aside));
     }
     report.conformity = check_conformity(result.mesh, result.cells.region, model.domain.hull);
     drop_beyond(result);

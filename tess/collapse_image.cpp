@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+
+#include "tess/collapse_fill.hpp"
+#include "tess/tetrahedron.hpp"
 
 namespace terratet {
 namespace {
@@ -13,59 +17,69 @@ constexpr double flat_height = 0.05;   ///< over the longest edge: flatter cells
 constexpr double least_height = 0.02;  ///< over the longest edge: what a moved cell must keep,
 constexpr double height_share = 0.1;   ///< or this share of the height it had
 constexpr double rounding = 1e-6;      ///< over the longest edge: no less whatever it had
-constexpr double inner = 0.02;         ///< crossings nearer to an end of an edge, relative, are none
 constexpr std::size_t max_growth = 4;  ///< crossings resolved, over the flat cells there were
-
-constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-double signed_height(const std::array<Vec3, 4>& p) {
-    const double six_volumes = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
-    double largest = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3& a = p[(k + 1) % 4];
-        largest = std::max(largest, length(cross(p[(k + 2) % 4] - a, p[(k + 3) % 4] - a)));
-    }
-    return largest > 0 ? six_volumes / largest : 0;
-}
 
 }  // namespace
 
-bool FaultNode::retreat() {
-    if (state == State::aside) {
-        return false;
-    }
-    state = state == State::joined && seeds.size() == 2 ? State::apart : State::aside;
-    return true;
-}
-
 CollapseImage::CollapseImage(const TetMesh& mesh, std::span<const FaultNode> fault_nodes)
-    : mesh_(mesh), fault_nodes_(fault_nodes), positions_(mesh.points), fault_node_(mesh.points.size(), none) {
-    std::vector<std::uint32_t> node(mesh.points.size());
-    for (std::uint32_t v = 0; v < node.size(); ++v) {
-        node[v] = v;
-    }
-    for (std::uint32_t f = 0; f < fault_nodes.size(); ++f) {
-        const FaultNode& at = fault_nodes[f];
-        const std::uint32_t first = *std::ranges::min_element(at.seeds);
-        for (std::size_t k = 0; k < at.seeds.size(); ++k) {
-            fault_node_[at.seeds[k]] = f;
-            if (at.state == FaultNode::State::joined) {
-                node[at.seeds[k]] = first;
-            }
-            if (at.state == FaultNode::State::joined || (at.state == FaultNode::State::apart && k == 0)) {
-                positions_[at.seeds[k]] = at.base;
-            }
+    : mesh_(mesh), fault_nodes_(fault_nodes), positions_(mesh.points) {
+    const Filling filling = fill_gaps(mesh, fault_nodes);
+    place_nodes();
+    faults_on_.resize(positions_.size());
+    const auto vertex_count = static_cast<std::uint32_t>(mesh.points.size());
+    const auto add = [this](const Cell& cell) {
+        if (!degenerate(cell)) {
+            cells_.push_back(cell);
         }
-    }
+    };
     for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
         Cell cell;
         cell.parent = c;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t v = mesh.cells[c][k];
-            cell.corners[k] = {node[v], v};
+            cell.corners[k] = {node_of_[v], v};
         }
-        if (!degenerate(cell)) {
-            cells_.push_back(cell);
+        if (filling.replaced[c] == 0) {
+            add(cell);
+        }
+    }
+    for (const Filling::Cell& filled : filling.cells) {
+        Cell cell;
+        cell.parent = filled.parent;
+        cell.made = true;
+        std::vector<std::uint32_t> seeds;
+        std::ranges::copy_if(filled.corners, std::back_inserter(seeds),
+                             [&](std::uint32_t v) { return v < vertex_count; });
+        const std::uint32_t mean = mean_of(std::move(seeds));
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t v = filled.corners[k];
+            cell.corners[k] = v < vertex_count ? Corner{node_of_[v], v} : Corner{v, mean};
+        }
+        add(cell);
+    }
+}
+
+void CollapseImage::place_nodes() {
+    fault_node_.assign(positions_.size(), none);
+    for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+        node_of_.push_back(v);
+    }
+    for (std::uint32_t f = 0; f < fault_nodes_.size(); ++f) {
+        const FaultNode& at = fault_nodes_[f];
+        if (at.is_vertex()) {
+            positions_.push_back(at.base);
+            fault_node_.push_back(f);
+            continue;
+        }
+        const std::uint32_t first = *std::ranges::min_element(at.seeds);
+        for (std::size_t k = 0; k < at.seeds.size(); ++k) {
+            fault_node_[at.seeds[k]] = f;
+            if (at.state == FaultNode::State::joined) {
+                node_of_[at.seeds[k]] = first;
+            }
+            if (at.state == FaultNode::State::joined || (at.state == FaultNode::State::apart && k == 0)) {
+                positions_[at.seeds[k]] = at.base;
+            }
         }
     }
 }
@@ -91,7 +105,7 @@ double CollapseImage::longest_edge(const Cell& cell) const {
 
 bool CollapseImage::is_flat(const Cell& cell) const {
     const bool on_fault = std::ranges::all_of(cell.corners, [&](const Corner& corner) {
-        if (corner.node >= mesh_.points.size()) {
+        if (corner.node >= fault_node_.size()) {
             return true;
         }
         const std::uint32_t at = fault_node_[corner.node];
@@ -142,34 +156,30 @@ void CollapseImage::remove_flat_cells() {
 /// triangle of the others.
 bool CollapseImage::cross_edges(std::uint32_t cell) {
     const std::array<Corner, 4> v = cells_[cell].corners;
-    for (const auto& [i, j, k, l] : {std::array{0U, 1U, 2U, 3U}, {0U, 2U, 1U, 3U}, {0U, 3U, 1U, 2U}}) {
-        const Vec3& a = positions_[v[i].node];
-        const Vec3& c = positions_[v[k].node];
-        const Vec3 u = positions_[v[j].node] - a;
-        const Vec3 w = positions_[v[l].node] - c;
-        const Vec3 normal = cross(u, w);
-        const double square = squared_length(normal);
-        if (!(square > 0)) {
+    for (const auto& [i, j, k, l] : opposite_edges) {
+        const auto crossing =
+            edge_crossing({positions_[v[i].node], positions_[v[j].node], positions_[v[k].node], positions_[v[l].node]});
+        if (!crossing) {
             continue;
         }
-        const double s = dot(cross(c - a, w), normal) / square;
-        const double t = dot(cross(c - a, u), normal) / square;
-        if (std::min({s, 1 - s, t, 1 - t}) < inner) {
-            continue;
-        }
-        const auto middle = static_cast<std::uint32_t>(positions_.size());
-        positions_.push_back(0.5 * (a + s * u + c + t * w));
-        crossed_.push_back({v[i].node, v[j].node, v[k].node, v[l].node});
-        star_.emplace_back();
-        split_edge(v[i].node, v[j].node, middle);
-        split_edge(v[k].node, v[l].node, middle);
+        const std::uint32_t middle = add_node(crossing->middle, {v[i].node, v[j].node, v[k].node, v[l].node});
+        split_edge(v[i].node, v[j].node, middle, Values::of_ends);
+        split_edge(v[k].node, v[l].node, middle, Values::of_ends);
         return true;
     }
     return false;
 }
 
+std::uint32_t CollapseImage::add_node(const Vec3& at, std::vector<std::uint32_t> made_of) {
+    positions_.push_back(at);
+    crossed_.push_back(std::move(made_of));
+    star_.emplace_back();
+    faults_on_.emplace_back();
+    return static_cast<std::uint32_t>(positions_.size() - 1);
+}
+
 /// Each cell round the edge becomes two new ones.
-void CollapseImage::split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t middle) {
+void CollapseImage::split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t middle, Values values) {
     const std::vector<std::uint32_t> round = star_[a];
     for (const std::uint32_t c : round) {
         const Cell whole = cells_[c];
@@ -182,11 +192,13 @@ void CollapseImage::split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t m
         if (at_a == 4 || at_b == 4 || degenerate(whole)) {
             continue;
         }
-        const Corner between{middle, cut(whole.corners[at_a].origin, whole.corners[at_b].origin)};
+        const std::array<std::uint32_t, 2> ends{whole.corners[at_a].origin, whole.corners[at_b].origin};
         cells_[c].corners.fill(whole.corners[0]);
         for (const std::size_t replaced : {at_a, at_b}) {
             Cell half = whole;
-            half.corners[replaced] = between;
+            half.made = whole.made || values == Values::of_sides;
+            half.corners[replaced] = {
+                middle, values == Values::of_ends ? mean_of({ends[0], ends[1]}) : ends[replaced == at_a ? 1 : 0]};
             for (const Corner& corner : half.corners) {
                 star_[corner.node].push_back(static_cast<std::uint32_t>(cells_.size()));
             }
@@ -195,27 +207,45 @@ void CollapseImage::split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t m
     }
 }
 
-std::uint32_t CollapseImage::cut(std::uint32_t a, std::uint32_t b) {
-    const std::array<std::uint32_t, 2> key{std::min(a, b), std::max(a, b)};
-    const auto [entry, is_new] =
-        cut_of_.try_emplace(key, static_cast<std::uint32_t>(mesh_.points.size() + cuts_.size()));
+std::uint32_t CollapseImage::mean_of(std::vector<std::uint32_t> origins) {
+    std::ranges::sort(origins);
+    const auto next = static_cast<std::uint32_t>(mesh_.points.size() + means_.size());
+    const auto [entry, is_new] = mean_number_.try_emplace(origins, next);
     if (is_new) {
-        cuts_.push_back({key[0], key[1]});
+        means_.push_back(std::move(origins));
     }
     return entry->second;
+}
+
+bool CollapseImage::moved(const Cell& cell) const {
+    return std::ranges::any_of(cell.corners, [&](const Corner& corner) {
+        return corner.origin >= mesh_.points.size() ? corner.node >= fault_node_.size()
+                                                    : positions_[corner.node] != mesh_.points[corner.origin];
+    });
+}
+
+/// The fault node to retreat for a cell without volume: of those that have given up least the last one.
+std::uint32_t CollapseImage::culprit_of(const Cell& cell) const {
+    std::uint32_t culprit = none;
+    for (const Corner& corner : cell.corners) {
+        for (const std::uint32_t f : fault_nodes_at(corner.node)) {
+            if (fault_nodes_[f].state != FaultNode::State::aside &&
+                (culprit == none || fault_nodes_[f].state < fault_nodes_[culprit].state ||
+                 (fault_nodes_[f].state == fault_nodes_[culprit].state && f > culprit))) {
+                culprit = f;
+            }
+        }
+    }
+    return culprit;
 }
 
 std::vector<std::uint32_t> CollapseImage::culprits() const {
     std::vector<std::uint32_t> result;
     for (const Cell& cell : cells_) {
-        const auto& parent = mesh_.cells[cell.parent];
-        bool moved = false;
-        for (std::size_t k = 0; k < 4; ++k) {
-            moved = moved || positions_[cell.corners[k].node] != mesh_.points[parent[k]];
-        }
-        if (!moved) {
+        if (!cell.made && !moved(cell)) {
             continue;
         }
+        const auto& parent = mesh_.cells[cell.parent];
         const double longest = longest_edge(cell);
         const double before = signed_height(
             {mesh_.points[parent[0]], mesh_.points[parent[1]], mesh_.points[parent[2]], mesh_.points[parent[3]]});
@@ -223,18 +253,7 @@ std::vector<std::uint32_t> CollapseImage::culprits() const {
         if (height(cell) >= least) {
             continue;
         }
-        // One at a time, the one that has given up least, is often enough.
-        std::uint32_t culprit = none;
-        for (const Corner& corner : cell.corners) {
-            for (const std::uint32_t f : fault_nodes_at(corner.node)) {
-                if (fault_nodes_[f].state != FaultNode::State::aside &&
-                    (culprit == none || fault_nodes_[f].state < fault_nodes_[culprit].state ||
-                     (fault_nodes_[f].state == fault_nodes_[culprit].state && f > culprit))) {
-                    culprit = f;
-                }
-            }
-        }
-        if (culprit != none) {
+        if (const std::uint32_t culprit = culprit_of(cell); culprit != none) {  // one at a time is often enough
             result.push_back(culprit);
         }
     }
@@ -243,19 +262,21 @@ std::vector<std::uint32_t> CollapseImage::culprits() const {
     return result;
 }
 
-/// What the node was made of, and that of what: each node once, since what is cut again and again has the same ends
-/// many times over. Later nodes lie between earlier ones.
+namespace {
+
+/// What a number was made of, and that of what: each once, since what is cut again and again has the same ends many
+/// times over. Numbers from `first` on are made of earlier ones.
 template <class EndsOf>
-std::vector<std::uint32_t> CollapseImage::origins(std::uint32_t node, const EndsOf& ends_of) const {
-    std::set<std::uint32_t> open{node};
+std::vector<std::uint32_t> ends_behind(std::uint32_t number, std::size_t first, const EndsOf& ends_of) {
+    std::set<std::uint32_t> open{number};
     std::vector<std::uint32_t> result;
     while (!open.empty()) {
         const std::uint32_t next = *open.rbegin();
         open.erase(next);
-        if (next < mesh_.points.size()) {
+        if (next < first) {
             result.push_back(next);
         } else {
-            const auto ends = ends_of(next - mesh_.points.size());
+            const auto& ends = ends_of[next - first];
             open.insert(ends.begin(), ends.end());
         }
     }
@@ -263,13 +284,15 @@ std::vector<std::uint32_t> CollapseImage::origins(std::uint32_t node, const Ends
     return result;
 }
 
+}  // namespace
+
 std::vector<std::uint32_t> CollapseImage::vertices_behind(std::uint32_t origin) const {
-    return origins(origin, [this](std::size_t k) { return std::array{cuts_[k].a, cuts_[k].b}; });
+    return ends_behind(origin, mesh_.points.size(), means_);
 }
 
 std::vector<std::uint32_t> CollapseImage::fault_nodes_at(std::uint32_t node) const {
     std::vector<std::uint32_t> result;
-    for (const std::uint32_t v : origins(node, [this](std::size_t k) { return crossed_[k]; })) {
+    for (const std::uint32_t v : ends_behind(node, fault_node_.size(), crossed_)) {
         if (fault_node_[v] != none) {
             result.push_back(fault_node_[v]);
         }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "tess/box_clip.hpp"
 #include "tess/fault_proximity.hpp"
@@ -114,6 +115,7 @@ class NodeSplitter {
     [[nodiscard]] const std::vector<std::int32_t>& regions() const { return region_; }
     [[nodiscard]] std::size_t split_places() const { return split_places_; }
     [[nodiscard]] double split_area() const { return split_area_; }
+    [[nodiscard]] std::vector<Vec3> off_faults() const { return {off_faults_.begin(), off_faults_.end()}; }
 
     /// Cells over parts, and their neighbours; none across faults.
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 4>>& cells() const { return cells_; }
@@ -144,13 +146,12 @@ class NodeSplitter {
         }
         for (std::uint32_t n = 0; n < image_.node_count(); ++n) {
             const auto at = image_.fault_nodes_at(n);
+            faults_at_[n] = image_.faults_on(n);
             base_[n] = at.size() == 1 ? nodes_[at[0]].base : image_.position(n);
             for (const std::uint32_t node : at) {
-                for (const std::uint32_t seed : nodes_[node].seeds) {
-                    faults_at_[n].push_back(model_.vertices[seed].owner);
-                }
+                faults_at_[n].insert(faults_at_[n].end(), nodes_[node].faults.begin(), nodes_[node].faults.end());
             }
-            for (std::size_t f = 0; f < boxes.size() && !at.empty(); ++f) {
+            for (std::size_t f = 0; f < boxes.size() && !(at.empty() && faults_at_[n].empty()); ++f) {
                 const auto fault = static_cast<std::int32_t>(f);
                 if (selected_[f] != 0 && boxes[f].contains(base_[n]) &&
                     proximity_.distance_to_sheet(fault, base_[n]) <= on_surface * model_.faults[f].spacing) {
@@ -284,7 +285,13 @@ class NodeSplitter {
                     region_[static_cast<std::size_t>(next)] >= 0 &&
                     region_[c] != region_[static_cast<std::size_t>(next)]) {
                     cut(c, k, touched);
-                    split_area_ += area(inside_extent(c, k));
+                    const std::vector<Vec3> inside = inside_extent(c, k);
+                    split_area_ += area(inside);
+                    for (const std::size_t corner : outward[k]) {
+                        if (const std::uint32_t node = cells_[c][corner]; !inside.empty() && faults_at_[node].empty()) {
+                            off_faults_.insert(image_.position(node));
+                        }
+                    }
                 }
             }
         }
@@ -373,6 +380,7 @@ class NodeSplitter {
     std::vector<NodePart> parts_;
     std::size_t split_places_ = 0;
     double split_area_ = 0;
+    std::set<Vec3> off_faults_;
 };
 
 }  // namespace
@@ -381,8 +389,8 @@ SplitImage split_nodes(const Model& model, const std::vector<char>& selected, co
                        std::span<const FaultNode> nodes, const CellStates& states) {
     NodeSplitter splitter(model, selected, image, nodes, states);
     splitter.run();
-    return {splitter.parts(),      splitter.regions(),      splitter.cells(),
-            splitter.neighbours(), splitter.split_places(), splitter.split_area()};
+    return {splitter.parts(),        splitter.regions(),    splitter.cells(),     splitter.neighbours(),
+            splitter.split_places(), splitter.split_area(), splitter.off_faults()};
 }
 
 }  // namespace terratet

@@ -36,6 +36,7 @@ struct SplitImage {
     std::vector<std::array<std::int32_t, 4>> neighbours;  ///< none across faults
     std::size_t split_places = 0;                         ///< nodes with more than one part
     double split_area = 0;                                ///< of facets on faults, in the extent
+    std::vector<Vec3> off_faults;                         ///< nodes of split facets in the extent that are on no fault
 };
 
 /// Facets on the surfaces of the selected faults, between cells of their two sides, part the cells round each node.

@@ -33,6 +33,18 @@ class Collapse(Case):
         clipped = self.check("clipped.vtu", "--extent", *twin_inputs()[twin_inputs().index("-te") + 1:][:6])
         self.assertGreater(clipped["mirrored"], 100)
 
+    def test_so_is_one_of_an_exact_fault_which_has_its_own_triangles(self):
+        self.succeed("build", *twin_inputs(), "--fault-mode", "exact", "-o", "m.gpkg")
+        self.succeed("export", "--fault-gap", "collapse", "--report", "hull.json", "m.gpkg", "hull.vtu")
+        self.succeed("export", "--fault-gap", "collapse", "--clip", "m.gpkg", "clipped.vtu")
+        report = json.loads((self.folder / "hull.json").read_text())["collapse"]
+        self.assertEqual(self.check("hull.vtu")["mirrored"], report["mirrored_facets"])
+        self.assertGreater(report["mirrored_facets"], 100)
+        self.assertEqual(report["apart"] + report["aside"], [])
+        self.assertAlmostEqual(report["split_area"] / report["sheet_area"], 1, delta=1e-9)
+        clipped = self.check("clipped.vtu", "--extent", *twin_inputs()[twin_inputs().index("-te") + 1:][:6])
+        self.assertEqual(clipped["mirrored"], report["mirrored_facets"])
+
     def run_check(self, name):
         return subprocess.run([VTK_PYTHON, CHECKER, self.folder / name], capture_output=True, text=True)
 

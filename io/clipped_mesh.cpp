@@ -224,21 +224,15 @@ class Clipper {
         }
     }
 
-    /// Connected components of non-gap cells; each is named after the smallest region among its cells.
+    /// Pieces keep their cell's region. Those of cells that have none, their centroids being outside, take that of the
+    /// nearest pieces they hang together with; in gaps they have none.
     void label_regions() {
         const std::size_t n = result_.cells.size();
-        std::vector<std::uint32_t> leader(n);
-        std::iota(leader.begin(), leader.end(), 0U);
-        const auto find = [&](std::uint32_t c) {
-            while (leader[c] != c) {
-                c = leader[c] = leader[leader[c]];
-            }
-            return c;
-        };
+        std::vector<std::vector<std::uint32_t>> next_to(n);
         const auto join = [&](std::uint32_t a, std::int64_t b) {
-            if (b >= 0 && !is_gap(a) && !is_gap(static_cast<std::size_t>(b))) {
-                const auto [lo, hi] = std::minmax({find(a), find(static_cast<std::uint32_t>(b))});
-                leader[hi] = lo;
+            if (b >= 0) {
+                next_to[a].push_back(static_cast<std::uint32_t>(b));
+                next_to[static_cast<std::size_t>(b)].push_back(a);
             }
         };
         for (std::uint32_t c = 0; c < n; ++c) {
@@ -249,15 +243,21 @@ class Clipper {
         for (const ClippedMesh::Facet& facet : result_.facets) {
             join(facet.cell, facet.beyond);
         }
-        std::vector<std::int32_t> name(n, -1);
+        result_.region.assign(n, -1);
+        std::vector<std::uint32_t> reached;
         for (std::uint32_t c = 0; c < n; ++c) {
-            const std::int32_t region = view_.cells.region[result_.parent[c]];
-            std::int32_t& best = name[find(c)];
-            best = region >= 0 && (best < 0 || region < best) ? region : best;
+            result_.region[c] = is_gap(c) ? -1 : view_.cells.region[result_.parent[c]];
+            if (result_.region[c] >= 0) {
+                reached.push_back(c);
+            }
         }
-        result_.region.resize(n);
-        for (std::uint32_t c = 0; c < n; ++c) {
-            result_.region[c] = is_gap(c) ? -1 : name[find(c)];
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            for (const std::uint32_t c : next_to[reached[i]]) {
+                if (result_.region[c] < 0 && !is_gap(c)) {
+                    result_.region[c] = result_.region[reached[i]];
+                    reached.push_back(c);
+                }
+            }
         }
     }
 

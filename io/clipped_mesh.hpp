@@ -37,8 +37,8 @@ struct ClippedMesh {
     std::vector<Cut> cuts;                            ///< place model.vertices.size() + i is cuts[i]
     std::vector<std::array<std::uint32_t, 4>> cells;  ///< indices into points, positively oriented
     std::vector<std::uint32_t> parent;                ///< of each cell, the tessellation's cell; ascending
-    std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. What is connected within the extent
-                                       ///< is one region, though a cell's centroid lie outside
+    std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. Where a cell's centroid lies outside,
+                                       ///< that of the nearest it hangs together with
     std::vector<Facet> facets;         ///< on the extent's faces, between gap and other cells, and between
                                        ///< pieces; each once
 

@@ -358,10 +358,20 @@ bool ComplexEditor::flip(std::uint32_t u, std::uint32_t v) {
     const std::uint32_t d = opposite(triangles_[of_edge[1]].corners, u, v);
     constexpr double straight = std::numbers::pi * (1 + 1e-5);
     if (c == d ||
-        angle_at(points_[c], points_[u], points_[v]) + angle_at(points_[d], points_[u], points_[v]) <= straight) {
+        angle_at(points_[c], points_[u], points_[v]) + angle_at(points_[d], points_[u], points_[v]) <= straight ||
+        has_edge(c, d)) {
         return false;
     }
-    if (has_edge(c, d)) {
+    return turn_edge(u, v, of_edge);
+}
+
+/// Unless the new triangles would fold or have no area. \pre An inner edge of a patch.
+bool ComplexEditor::turn_edge(std::uint32_t u, std::uint32_t v, const std::vector<std::uint32_t>& of_edge) {
+    const WorkTriangle first = triangles_[of_edge[0]];
+    const std::uint32_t c = opposite(first.corners, u, v);
+    const std::uint32_t d = opposite(triangles_[of_edge[1]].corners, u, v);
+    const auto is_own = [&](std::uint32_t t) { return triangles_[t].sheet == first.sheet; };
+    if (std::ranges::any_of(edge_triangles(c, d), is_own)) {
         return false;
     }
     const auto at = static_cast<std::size_t>(std::ranges::find(first.corners, c) - first.corners.begin());
@@ -380,6 +390,59 @@ bool ComplexEditor::flip(std::uint32_t u, std::uint32_t v) {
     add_triangle({c, a, d}, first);
     add_triangle({d, b, c}, first);
     return true;
+}
+
+ComplexEditor::Ties ComplexEditor::common_ties(std::uint32_t u, std::uint32_t v) const {
+    Ties common;
+    std::ranges::set_intersection(ties_at(u), ties_at(v), std::back_inserter(common));
+    return common;
+}
+
+void ComplexEditor::join_bounds() {
+    for (std::uint32_t t = 0; bounded_ && t < triangles_.size(); ++t) {
+        if (!triangles_[t].alive || triangles_[t].bound != unbound) {
+            continue;
+        }
+        const Triangle c = triangles_[t].corners;
+        Ties all;
+        std::ranges::set_intersection(common_ties(c[0], c[1]), ties_at(c[2]), std::back_inserter(all));
+        if (!all.empty()) {
+            remove_triangle(t);
+        }
+    }
+    const auto count = static_cast<std::uint32_t>(triangles_.size());
+    for (std::uint32_t t = 0; bounded_ && t < count; ++t) {
+        for (std::size_t k = 0; k < 3 && triangles_[t].alive && triangles_[t].bound == unbound; ++k) {
+            const std::uint32_t u = triangles_[t].corners[k];
+            const std::uint32_t v = triangles_[t].corners[(k + 1) % 3];
+            for (const std::uint32_t bound : common_ties(u, v)) {
+                flip_for(u, v, bound);
+            }
+        }
+    }
+}
+
+/// Makes uv an edge of the bound if it is the other diagonal there.
+bool ComplexEditor::flip_for(std::uint32_t u, std::uint32_t v, std::uint32_t bound) {
+    const auto is_of_bound = [&](std::uint32_t t) { return triangles_[t].bound == bound; };
+    if (std::ranges::any_of(edge_triangles(u, v), is_of_bound)) {
+        return false;
+    }
+    for (const std::uint32_t t : star_[u]) {
+        if (!is_of_bound(t)) {
+            continue;
+        }
+        const Triangle c = triangles_[t].corners;
+        const auto at = static_cast<std::size_t>(std::ranges::find(c, u) - c.begin());
+        const std::uint32_t a = c[(at + 1) % 3];
+        const std::uint32_t b = c[(at + 2) % 3];
+        const std::vector<std::uint32_t> of_edge = edge_triangles(a, b);
+        if (!is_feature(of_edge) && std::ranges::all_of(of_edge, is_of_bound) &&
+            std::ranges::any_of(of_edge, [&](std::uint32_t other) { return has(triangles_[other].corners, v); })) {
+            return turn_edge(a, b, of_edge);
+        }
+    }
+    return false;
 }
 
 FaultComplex ComplexEditor::result() const {

@@ -89,12 +89,19 @@ class ComplexEditor {
     /// Flips an inner edge of a patch that is not Delaunay.
     bool flip(std::uint32_t u, std::uint32_t v);
 
+    /// Others' triangles that lie on a bound with all corners go, and edges of the bound flip for theirs that do: so
+    /// sheets that lean against it join it.
+    void join_bounds();
+
     [[nodiscard]] FaultComplex result() const;
 
   private:
     std::uint32_t add_point(const Vec3& p);
     void add_triangle(const Triangle& t, const WorkTriangle& like);
     void number_bounds(std::span<const char> bounds);
+    [[nodiscard]] Ties common_ties(std::uint32_t u, std::uint32_t v) const;
+    bool flip_for(std::uint32_t u, std::uint32_t v, std::uint32_t bound);
+    bool turn_edge(std::uint32_t u, std::uint32_t v, const std::vector<std::uint32_t>& of_edge);
     [[nodiscard]] std::optional<std::uint32_t> present(const Triangle& t) const;
     [[nodiscard]] bool keeps_topology(std::uint32_t u, std::uint32_t v, std::size_t shared) const;
     [[nodiscard]] bool keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) const;

@@ -75,6 +75,20 @@ void weld(FaultMesh& mesh) {
     compact(mesh);
 }
 
+const char* advice_on_overlap(SurfaceKind with) {
+    switch (with) {
+        case SurfaceKind::fault:
+            return ": alternative versions of one fault? keep one of them";
+        case SurfaceKind::horizon:
+            return ": where the two run together keep one of them, and let the other end there";
+        case SurfaceKind::topography:
+            return ": let it end where it comes to the ground";
+        case SurfaceKind::domain:
+            return ": a fault cannot be a domain's boundary; let the domain reach beyond it";
+    }
+    return "";
+}
+
 Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
     Surface result{source.name, source.kind, mesh.points, mesh.triangles, source.file};
     for (Vec3& p : result.vertices) {
@@ -203,11 +217,18 @@ void FaultPreparer::refuse(Candidate& candidate, const std::string& reason) {
     candidate.account.area_refused = candidate.area_inside;
 }
 
-/// The largest first; one that mostly runs alongside another is a second version of it.
+std::string FaultPreparer::described(const Candidate& candidate) {
+    return std::string(to_string(candidate.surface->kind)) + " '" + candidate.surface->name + "'";
+}
+
+/// The largest first, bounds before all; one that mostly runs alongside another is a second version of it, unless it is
+/// a wall of the domain, which is as near to the next one as the outline has it.
 void FaultPreparer::refuse_alternatives() {
     std::vector<std::size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return candidates_[k].area_inside; });
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) {
+        return std::pair(is_bound(candidates_[k].surface->kind), candidates_[k].area_inside);
+    });
     std::vector<FaultMesh> meshes;
     for (const Candidate& candidate : candidates_) {
         meshes.push_back(candidate.active ? whole(candidate.repaired) : FaultMesh{});
@@ -220,10 +241,9 @@ void FaultPreparer::refuse_alternatives() {
         const Alongside test(meshes[order[i]]);
         for (std::size_t j = i + 1; j < order.size(); ++j) {
             Candidate& smaller = candidates_[order[j]];
-            if (smaller.active &&
+            if (smaller.active && smaller.surface->kind != SurfaceKind::domain &&
                 test.share_of(meshes[order[j]], extent_, alternative * scale_.spacing) > alternative) {
-                refuse(smaller, "overlaps fault '" + larger.account.name +
-                                    "': alternative versions of one fault? keep one of them");
+                refuse(smaller, "overlaps " + described(larger) + advice_on_overlap(larger.surface->kind));
             }
         }
     }
@@ -348,9 +368,10 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         bool refused = false;
         for (std::size_t k = 0; k < bad.size(); ++k) {
             if (bad[k] > unseparated * candidates_[k].area_inside) {
-                refuse(candidates_[k], "bends too sharply at " + place_text(frame_.to_world(where[k])) +
-                                           ": mirrored seeds cannot tell its sides apart there; use a finer "
-                                           "--fault-spacing or the exact fault mode");
+                refuse(candidates_[k],
+                       "bends too sharply at " + place_text(frame_.to_world(where[k])) +
+                           ": mirrored seeds cannot tell its sides apart there; use a finer --fault-spacing" +
+                           (is_bound(candidates_[k].surface->kind) ? "" : " or the exact fault mode"));
                 refused = true;
             }
         }
@@ -397,9 +418,12 @@ void FaultPreparer::cut() {
     }
 }
 
-/// The smaller one of each pair goes, unless the larger one went already.
+/// Of each pair the one goes that is no bound, or the smaller, unless the other went already.
 bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
                                   const std::string& what) {
+    const auto weight = [](const Candidate& candidate) {
+        return std::pair(is_bound(candidate.surface->kind), candidate.area_inside);
+    };
     bool any = false;
     for (const auto& [a, b] : pairs) {
         if (!candidates_[a].active || !candidates_[b].active) {
@@ -408,9 +432,8 @@ bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std
         if (a == b) {
             refuse(candidates_[a], "meets itself where its parts touch: no sheet can be made of it");
         } else {
-            const bool first_larger = candidates_[a].area_inside >= candidates_[b].area_inside;
-            Candidate& smaller = candidates_[first_larger ? b : a];
-            refuse(smaller, what + candidates_[first_larger ? a : b].account.name + "'");
+            const bool first_stays = weight(candidates_[a]) >= weight(candidates_[b]);
+            refuse(candidates_[first_stays ? b : a], what + described(candidates_[first_stays ? a : b]));
         }
         any = true;
     }
@@ -426,7 +449,8 @@ bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
     }
     std::ranges::sort(pairs);
     pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-    return refuse_failed(pairs, "is too rough for the spacing: remeshed it still crosses fault '");
+    return refuse_failed(pairs,
+                         "is too rough for the spacing, or meets it at too small an angle: remeshed it still crosses ");
 }
 
 void FaultPreparer::seed(Pass& pass, const SizeField& sizes) const {

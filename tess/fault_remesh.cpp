@@ -587,6 +587,7 @@ class FaultRemesher::Impl {
         int last_gain = 0;
         for (int repair = 0; repair <= repairs; ++repair) {
             drop_flaps();
+            editor_.join_bounds();
             FaultComplex now = editor_.result();
             restore_sense(now);  // of triangles that coincided one stayed, whichever way it was turned
             auto crossings = crossing_triangles(now);

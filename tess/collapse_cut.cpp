@@ -15,6 +15,7 @@ constexpr double near_fault = 0.01;    ///< or over the fault's spacing, is on i
 constexpr double crossed = 1e-3;       ///< edges that pass each other nearer than that, over the length, cross
 constexpr double least_height = 1e-6;  ///< of what is left of a cell, over its longest edge,
 constexpr double height_share = 1e-3;  ///< or over the height it had
+constexpr double rounding = 1e-9;      ///< over the longest edge: no less whatever it had
 constexpr std::size_t max_growth = 4;  ///< edges looked at, over those there were
 
 using Edge = std::array<std::uint32_t, 2>;
@@ -156,8 +157,9 @@ class CollapseImage::Cutter {
                 continue;
             }
             for (const Corner& corner : cell.corners) {
-                if (is_made(corner.node) && distance(position(corner.node), at) < most &&
-                    runs_through(edge, corner.node) && stays_positive(edge, position(corner.node), corner.node)) {
+                if (is_made(corner.node) && distance(position(corner.node), at) < most && corner.node != edge[0] &&
+                    corner.node != edge[1] && runs_through(edge, position(corner.node)) &&
+                    stays_positive(edge, position(corner.node), corner.node)) {
                     return corner.node;
                 }
             }
@@ -192,7 +194,8 @@ class CollapseImage::Cutter {
             const Cell& cell = image_.cells_[c];
             for (std::size_t k = 0; k < cell_edges.size() && !image_.degenerate(cell); ++k) {
                 const Edge opposite{cell.corners[cell_edges[k][0]].node, cell.corners[cell_edges[k][1]].node};
-                if (runs_through(opposite, middle) && stays_positive(opposite, position(middle), middle)) {
+                if (opposite[0] != middle && opposite[1] != middle && runs_through(opposite, position(middle)) &&
+                    stays_positive(opposite, position(middle), middle)) {
                     image_.split_edge(opposite[0], opposite[1], middle, Values::of_sides);
                     break;
                 }
@@ -200,37 +203,52 @@ class CollapseImage::Cutter {
         }
     }
 
-    [[nodiscard]] bool runs_through(const Edge& edge, std::uint32_t node) const {
-        if (edge[0] == node || edge[1] == node) {
-            return false;
-        }
+    [[nodiscard]] bool runs_through(const Edge& edge, const Vec3& at) const {
         const Vec3& from = position(edge[0]);
         const Vec3 along = position(edge[1]) - from;
-        const double share = dot(position(node) - from, along) / squared_length(along);
-        return std::min(share, 1 - share) > near_end &&
-               distance(from + share * along, position(node)) < crossed * length(along);
+        const double share = dot(at - from, along) / squared_length(along);
+        return std::min(share, 1 - share) > near_end && distance(from + share * along, at) < crossed * length(along);
     }
 
-    /// Will all cells round the edge, but for those with the node already, keep a volume when it is cut there?
-    [[nodiscard]] bool stays_positive(const Edge& edge, const Vec3& at, std::uint32_t node) const {
+    /// Will all cells round the edge keep a volume when it is cut there? But for those that will be gone: with the node
+    /// already, with the edge that is cut in the same place, or with an opposite one that can be.
+    [[nodiscard]] bool stays_positive(const Edge& edge, const Vec3& at, std::uint32_t node,
+                                      const Edge& cut_too = {none, none}) const {
         return std::ranges::all_of(image_.star_[edge[0]], [&](std::uint32_t c) {
             const Cell& cell = image_.cells_[c];
-            if (image_.degenerate(cell) || !has(cell, edge[1]) || has(cell, node)) {
+            if (image_.degenerate(cell) || !has(cell, edge[1]) || has(cell, node) ||
+                (has(cell, cut_too[0]) && has(cell, cut_too[1]))) {
                 return true;
             }
-            std::array<Vec3, 4> whole{};
-            for (std::size_t k = 0; k < 4; ++k) {
-                whole[k] = position(cell.corners[k].node);
+            const Edge opposite = opposite_edge(cell, edge);
+            if (cut_too[0] == none && runs_through(opposite, at)) {
+                return stays_positive(opposite, at, node, edge);
             }
-            const double share = height_share * signed_height(whole);
-            return std::ranges::all_of(edge, [&](std::uint32_t replaced) {
-                std::array<Vec3, 4> half = whole;
-                half[static_cast<std::size_t>(std::ranges::find(cell.corners, replaced, &Corner::node) -
-                                              cell.corners.begin())] = at;
-                const double height = signed_height(half);
-                return height > 0 && height > std::min(share, least_height * image_.longest_edge(cell));
-            });
+            return std::ranges::all_of(edge, [&](std::uint32_t replaced) { return keeps_height(cell, replaced, at); });
         });
+    }
+
+    static Edge opposite_edge(const Cell& cell, const Edge& edge) {
+        Edge result{};
+        std::size_t next = 0;
+        for (const Corner& corner : cell.corners) {
+            if (corner.node != edge[0] && corner.node != edge[1]) {
+                result[next++] = corner.node;
+            }
+        }
+        return result;
+    }
+
+    [[nodiscard]] bool keeps_height(const Cell& cell, std::uint32_t replaced, const Vec3& at) const {
+        std::array<Vec3, 4> whole{};
+        std::array<Vec3, 4> half{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            whole[k] = position(cell.corners[k].node);
+            half[k] = cell.corners[k].node == replaced ? at : whole[k];
+        }
+        const double longest = image_.longest_edge(cell);
+        return signed_height(half) >
+               std::max(std::min(least_height * longest, height_share * signed_height(whole)), rounding * longest);
     }
 
     /// What was put on a fault has in each cell the mean of the seeds there: of its side, now that none has both.

@@ -297,6 +297,8 @@ class NodeSplitter {
         }
     }
 
+    using Incidence = std::array<std::uint32_t, 2>;
+
     void split(const std::vector<char>& touched) {
         std::vector<std::vector<std::array<std::uint32_t, 2>>> star(touched.size());  // cell, corner
         for (std::uint32_t c = 0; c < cells_.size(); ++c) {
@@ -311,6 +313,9 @@ class NodeSplitter {
             }
             using Groups = std::vector<std::vector<Incidence>>;
             const std::size_t parts_before = parts_.size();
+            if (touched[node] != 0) {
+                separate_regions(node, star[node], image_cells);
+            }
             for (const auto& group :
                  touched[node] != 0 ? components(node, star[node], image_cells) : Groups{star[node]}) {
                 NodePart part{node, {}};
@@ -327,7 +332,44 @@ class NodeSplitter {
         }
     }
 
-    using Incidence = std::array<std::uint32_t, 2>;
+    /// Where two regions are joined round the end of a fault outside the extent, the cells there take sides, and facets
+    /// between them are cut: no region shares a node with another across a fault.
+    void separate_regions(std::uint32_t node, const std::vector<Incidence>& star,
+                          const std::vector<std::array<std::uint32_t, 4>>& cells) {
+        std::map<std::uint32_t, std::int32_t> label;
+        std::vector<std::uint32_t> open;
+        for (const auto& [c, corner] : star) {
+            label[c] = region_[c];
+            if (region_[c] >= 0) {
+                open.push_back(c);
+            }
+        }
+        if (std::ranges::all_of(open, [&](std::uint32_t c) { return region_[c] == region_[open[0]]; })) {
+            return;
+        }
+        const auto visit_joined = [&](std::uint32_t c, const auto& visit) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (cells[c][k] != node && !cut_[c][k] && neighbours_[c][k] >= 0) {
+                    visit(static_cast<std::uint32_t>(neighbours_[c][k]), k);
+                }
+            }
+        };
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            visit_joined(open[i], [&](std::uint32_t next, std::size_t) {
+                if (label[next] < 0) {
+                    label[next] = label[open[i]];
+                    open.push_back(next);
+                }
+            });
+        }
+        for (const std::uint32_t c : open) {
+            visit_joined(c, [&](std::uint32_t next, std::size_t k) {
+                if (label[next] != label[c]) {
+                    cut_[c][k] = cut_[next][facet_towards(next, c)] = true;
+                }
+            });
+        }
+    }
 
     /// Cells round a node that hang together over facets at the node that are no faults; by their first cell.
     [[nodiscard]] std::vector<std::vector<Incidence>> components(

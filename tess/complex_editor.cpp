@@ -104,6 +104,7 @@ std::uint32_t ComplexEditor::add_point(const Vec3& p) {
     points_.push_back(p);
     sizes_of_.push_back(field_.at(p));
     fixed_.push_back(0);
+    awake_.push_back(1);
     star_.emplace_back();
     return static_cast<std::uint32_t>(points_.size() - 1);
 }
@@ -141,6 +142,42 @@ std::vector<std::uint32_t> ComplexEditor::update_sizes() {
         }
     }
     return changed;
+}
+
+void ComplexEditor::wake_only(const std::vector<std::uint32_t>& points) {
+    awake_.assign(points_.size(), 0);
+    for (const std::uint32_t v : points) {
+        awake_[v] = 1;
+    }
+}
+
+void ComplexEditor::wake_neighbours(int rings) {
+    for (int ring = 0; ring < rings; ++ring) {
+        const std::vector<char> before = awake_;
+        for (const WorkTriangle& triangle : triangles_) {
+            if (triangle.alive &&
+                std::ranges::any_of(triangle.corners, [&](std::uint32_t v) { return before[v] != 0; })) {
+                for (const std::uint32_t v : triangle.corners) {
+                    awake_[v] = 1;
+                }
+            }
+        }
+    }
+}
+
+bool ComplexEditor::stays_sound(std::uint32_t v, const Vec3& to) const {
+    return std::ranges::all_of(star_[v], [&](std::uint32_t t) {
+        const TriangleCorners before = corners(t);
+        TriangleCorners after = before;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (triangles_[t].corners[k] == v) {
+                after[k] = to;
+            }
+        }
+        const Vec3 was = area_vector(before);
+        const Vec3 is = area_vector(after);
+        return dot(unit(was), unit(is)) >= 0.7 && squared_length(is) >= 0.04 * squared_length(was);
+    });
 }
 
 void ComplexEditor::move(std::uint32_t v, const Vec3& to) {

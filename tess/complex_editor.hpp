@@ -70,6 +70,16 @@ class ComplexEditor {
     /// After the field has changed. Points that want another size now.
     std::vector<std::uint32_t> update_sizes();
 
+    /// All points are awake at first, and so are new ones. Only these are moved, have their edges flipped and are
+    /// mended, which is the caller's to heed.
+    [[nodiscard]] bool awake(std::uint32_t v) const { return awake_[v] != 0; }
+    void wake_only(const std::vector<std::uint32_t>& points);
+    /// Those that share a triangle with one that is awake, again and again.
+    void wake_neighbours(int rings);
+
+    /// Would the triangles round v neither turn over nor shrink to nothing?
+    [[nodiscard]] bool stays_sound(std::uint32_t v, const Vec3& to) const;
+
     void fix(std::uint32_t v) { fixed_[v] = 1; }
     void move(std::uint32_t v, const Vec3& to);
 
@@ -111,6 +121,7 @@ class ComplexEditor {
     std::vector<Vec3> points_;
     std::vector<double> sizes_of_;
     std::vector<char> fixed_;
+    std::vector<char> awake_;
     std::vector<WorkTriangle> triangles_;
     std::vector<std::vector<std::uint32_t>> star_;  ///< living triangles of each point
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tess/compatible.hpp"
 #include "tess/fault_seed.hpp"
 #include "tess/seed_grid.hpp"
 
@@ -11,7 +12,8 @@ namespace terratet {
 namespace {
 
 constexpr double radius_factor = 1.01;  ///< of a point's ball over the largest circumradius round it
-constexpr double local_height = 0.15;   ///< of uncertified seeds over their triangle, in edge lengths
+constexpr double local_height = 0.15;   ///< of other seeds over their triangle, in edge lengths
+constexpr double most_lifted = 1;       ///< height of seeds over certified balls, in edge lengths
 constexpr double ring_step = 0.2;       ///< of rings along junctions, in edge lengths
 constexpr double ring_radius = 0.14;
 constexpr double tolerance = 1e-8;  ///< relative, on the radii: rounding of the seeds
@@ -29,25 +31,26 @@ class ExactSeeds {
     SeededComplex run() {
         find_radii();
         find_radical();
-        SeededComplex result;
-        result.certified = certify(radical_places());
+        const std::vector<char> chosen = choose();
+        placed_.assign(chosen.size(), 0);
         certified_ball_.assign(complex_.points.size(), 0);
-        for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
-            if (result.certified[t] != 0) {
-                add_radical(t);
+        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
+            if (chosen[t] != 0) {
+                placed_[t] = add_radical(t) ? 1 : 0;
                 for (const std::uint32_t v : complex_.triangles[t]) {
                     certified_ball_[v] = 1;
                 }
             }
         }
-        const SeedGrid points(complex_.points, 1.5 * task_.sizes.spacing());
-        for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
-            if (result.certified[t] == 0) {
-                add_uncertified(t, points);
+        const SeedGrid points = grid_of_points();
+        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
+            if (chosen[t] == 0) {
+                add_other(t, points);
             }
         }
-        add_rings(result.certified, points);
-        result.certified = certify(collector_.places());
+        add_rings(chosen, points);
+        SeededComplex result;
+        result.certified = certify();
         result.radius = radius_;
         set_radii(result);
         collector_.test_separation(result);
@@ -70,7 +73,7 @@ class ExactSeeds {
 
     /// The point of the plane with equal power to the three corners' balls, and what is left of it for the height.
     void find_radical() {
-        radical_.resize(complex_.triangles.size());
+        radical_.assign(complex_.triangles.size(), {});
         for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
             const Triangle& v = complex_.triangles[t];
             const TriangleCorners c = corners(complex_, t);
@@ -97,22 +100,49 @@ class ExactSeeds {
 
     [[nodiscard]] Vec3 normal(std::uint32_t t) const { return unit(area_vector(corners(complex_, t))); }
 
-    [[nodiscard]] std::vector<Vec3> radical_places() const {
-        std::vector<Vec3> places;
-        for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
-            if (radical_[t].height > 0) {
-                const Vec3 up = radical_[t].height * normal(t);
-                places.push_back(radical_[t].foot + up);
-                places.push_back(radical_[t].foot - up);
-            }
-        }
-        return places;
+    [[nodiscard]] SeedGrid grid_of_points() const {
+        return SeedGrid(complex_.points, 1.5 * task_.sizes.spacing());  // radii are smaller
     }
 
-    /// The theorem's conditions: h² > 0, no seed strictly inside the ball of a corner; and the seeds stand on the
-    /// triangle's own sides: nothing between them and it.
-    [[nodiscard]] std::vector<char> certify(const std::vector<Vec3>& places) const {
-        const SeedGrid seeds(places, 1.1 * task_.sizes.spacing());
+    /// The triangles that get radical seeds, as many as can be: those that have and see theirs, of which none enters
+    /// the ball of another's corner.
+    [[nodiscard]] std::vector<char> choose() const {
+        std::vector<char> able(complex_.triangles.size(), 0);
+        std::vector<std::vector<std::uint32_t>> star(complex_.points.size());
+        for (std::uint32_t t = 0; t < able.size(); ++t) {
+            if (radical_[t].height > 0 && !is_relaxed(t) && sees_its_seeds(t)) {
+                able[t] = 1;
+                for (const std::uint32_t v : complex_.triangles[t]) {
+                    star[v].push_back(t);
+                }
+            }
+        }
+        std::vector<std::vector<std::uint32_t>> conflicts(able.size());
+        const SeedGrid points = grid_of_points();
+        for (std::uint32_t t = 0; t < able.size(); ++t) {
+            const Vec3 up = radical_[t].height * normal(t);
+            for (const Vec3& seed : {radical_[t].foot + up, radical_[t].foot - up}) {
+                points.visit(seed, [&](std::uint32_t v) {
+                    if (able[t] != 0 && distance(points.point(v), seed) < radius_[v] * (1 - tolerance)) {
+                        for (const std::uint32_t other : star[v]) {
+                            conflicts[t].push_back(other);
+                            conflicts[other].push_back(t);
+                        }
+                    }
+                });
+            }
+        }
+        std::vector<char> chosen = compatible(std::move(conflicts));
+        for (std::uint32_t t = 0; t < able.size(); ++t) {
+            chosen[t] = chosen[t] != 0 && able[t] != 0 ? 1 : 0;
+        }
+        return chosen;
+    }
+
+    /// The theorem's conditions: the triangle's own seeds are there, on the spheres about its corners and on its own
+    /// sides, and nothing is strictly inside these.
+    [[nodiscard]] std::vector<char> certify() const {
+        const SeedGrid seeds(collector_.places(), 1.1 * task_.sizes.spacing());
         std::vector<char> clear(complex_.points.size(), 1);
         for (std::size_t v = 0; v < clear.size(); ++v) {
             const std::uint32_t nearest = seeds.nearest(complex_.points[v]);
@@ -121,34 +151,42 @@ class ExactSeeds {
                 clear[v] = 0;
             }
         }
-        std::vector<char> certified(complex_.triangles.size(), 0);
+        std::vector<char> certified = placed_;
         for (std::uint32_t t = 0; t < certified.size(); ++t) {
-            const bool balls_clear =
-                std::ranges::all_of(complex_.triangles[t], [&](std::uint32_t v) { return clear[v] != 0; });
-            certified[t] = radical_[t].height > 0 && balls_clear && sees_its_seeds(t) ? 1 : 0;
+            if (std::ranges::any_of(complex_.triangles[t], [&](std::uint32_t v) { return clear[v] == 0; })) {
+                certified[t] = 0;
+            }
         }
         return certified;
     }
 
+    [[nodiscard]] bool is_relaxed(std::uint32_t t) const {
+        const TriangleCorners c = corners(complex_, t);
+        return std::ranges::any_of(task_.relaxed, [&](const Vec3& place) {
+            return distance(closest_point_on_triangle(place, c[0], c[1], c[2]), place) < task_.sizes.at(place);
+        });
+    }
+
     [[nodiscard]] bool sees_its_seeds(std::uint32_t t) const {
+        const Vec3 up = radical_[t].height * normal(t);
+        return sees(t, radical_[t].foot + up) && sees(t, radical_[t].foot - up);
+    }
+
+    [[nodiscard]] bool sees(std::uint32_t t, const Vec3& seed) const {
         const TriangleCorners c = corners(complex_, t);
         const Vec3 middle = centroid(c);
-        const Vec3 up = radical_[t].height * normal(t);
-        for (const double side : {1.0, -1.0}) {
-            const Vec3 seed = radical_[t].foot + side * up;
-            for (const Vec3& x : {middle, c[0] + 0.02 * (middle - c[0]), c[1] + 0.02 * (middle - c[1]),
-                                  c[2] + 0.02 * (middle - c[2])}) {
-                if (task_.wall.between(x, seed, t)) {
-                    return false;
-                }
+        for (const Vec3& x :
+             {middle, c[0] + 0.02 * (middle - c[0]), c[1] + 0.02 * (middle - c[1]), c[2] + 0.02 * (middle - c[2])}) {
+            if (task_.wall.between(x, seed, t)) {
+                return false;
             }
         }
         return true;
     }
 
-    void add_radical(std::uint32_t t) {
+    bool add_radical(std::uint32_t t) {
         const Vec3 up = radical_[t].height * normal(t);
-        collector_.add(complex_.sheet[t], radical_[t].foot + up, radical_[t].foot - up);
+        return collector_.add(complex_.sheet[t], radical_[t].foot + up, radical_[t].foot - up);
     }
 
     [[nodiscard]] bool harmless(const Vec3& seed, const SeedGrid& points) const {
@@ -160,17 +198,42 @@ class ExactSeeds {
         return !inside;
     }
 
-    /// Low seeds over a foot inside where they harm no certified triangle, else the radical ones.
-    void add_uncertified(std::uint32_t t, const SeedGrid& points) {
+    /// Low seeds over a foot inside, or as high over it as the balls of certified triangles reach.
+    void add_other(std::uint32_t t, const SeedGrid& points) {
         const Candidate low = low_candidate(t);
-        const Vec3 up = low.height * normal(t);
-        if (low.height > 0 && harmless(low.foot + up, points) && harmless(low.foot - up, points)) {
-            collector_.add(complex_.sheet[t], low.foot + up, low.foot - up);
-        } else if (radical_[t].height > 0 && sees_its_seeds(t)) {
-            add_radical(t);
-        } else if (low.height > 0) {
-            collector_.add(complex_.sheet[t], low.foot + up, low.foot - up);
+        if (add_harmless(t, low, points)) {
+            return;
         }
+        for (const Candidate& over : {radical_[t], low}) {
+            if (add_harmless(t, {over.foot, over.height > 0 ? lifted(t, over, points) : 0}, points)) {
+                return;
+            }
+        }
+    }
+
+    bool add_harmless(std::uint32_t t, const Candidate& candidate, const SeedGrid& points) {
+        const Vec3 up = candidate.height * normal(t);
+        return candidate.height > 0 && harmless(candidate.foot + up, points) && harmless(candidate.foot - up, points) &&
+               sees(t, candidate.foot + up) && sees(t, candidate.foot - up) &&
+               collector_.add(complex_.sheet[t], candidate.foot + up, candidate.foot - up);
+    }
+
+    /// The height over the candidate's foot from which on it is outside certified balls on both sides; 0 when that is
+    /// too high.
+    [[nodiscard]] double lifted(std::uint32_t t, const Candidate& candidate, const SeedGrid& points) const {
+        const Vec3 n = normal(t);
+        double height = candidate.height;
+        points.visit(candidate.foot, [&](std::uint32_t v) {
+            if (certified_ball_[v] != 0) {
+                const Vec3 from = candidate.foot - points.point(v);
+                const double slope = std::abs(dot(from, n));  // of the two sides the one that is longer inside
+                const double square = slope * slope - squared_length(from) + radius_[v] * radius_[v];
+                if (square > 0) {
+                    height = std::max(height, slope + std::sqrt(square));
+                }
+            }
+        });
+        return height < most_lifted * task_.sizes.at(candidate.foot) ? height : 0;
     }
 
     /// The circumcentre, drawn towards the incentre until it is well inside; as high as the wedges at the edges allow.
@@ -215,12 +278,12 @@ class ExactSeeds {
         return {foot, height};
     }
 
-    /// Pairs mirrored about each half-sheet of a junction edge that has an uncertified triangle.
-    void add_rings(const std::vector<char>& certified, const SeedGrid& points) {
+    /// Pairs mirrored about each half-sheet of a junction edge that has a triangle without radical seeds.
+    void add_rings(const std::vector<char>& chosen, const SeedGrid& points) {
         for (const EdgeTable::Edge& e : task_.edges.edges()) {
             const auto of_edge = task_.edges.triangles(e);
-            const bool all_certified = std::ranges::all_of(of_edge, [&](std::uint32_t t) { return certified[t] != 0; });
-            if (of_edge.size() < 2 || is_smooth(complex_, of_edge) || all_certified) {
+            const bool all_chosen = std::ranges::all_of(of_edge, [&](std::uint32_t t) { return chosen[t] != 0; });
+            if (of_edge.size() < 2 || is_smooth(complex_, of_edge) || all_chosen) {
                 continue;
             }
             const Fan fan = fan_about(complex_, of_edge, e.a, e.b);
@@ -269,7 +332,8 @@ class ExactSeeds {
     SeedCollector collector_;
     std::vector<double> radius_;
     std::vector<Candidate> radical_;
-    std::vector<char> certified_ball_;
+    std::vector<char> placed_;          ///< by triangle: its radical seeds are there
+    std::vector<char> certified_ball_;  ///< by point: no other seeds may enter its ball
 };
 
 }  // namespace

@@ -117,6 +117,7 @@ struct LeakFinder::Impl {
     Delaunay tessellation;
     SeedGrid protected_balls;
     std::vector<std::uint32_t> protectors;  ///< of these balls
+    double probe_reach;                     ///< larger balls are probed about their seeds alone
     SeedGrid probes;                        ///< places just out of the zone
     std::vector<Vec3> probe_out;            ///< away from the triangle
     std::vector<std::uint32_t> probe_fault;
@@ -128,7 +129,8 @@ struct LeakFinder::Impl {
           hull(box),
           proximity(given),
           protected_balls({}, widest_protection(given)),
-          probes({}, 2 * widest_protection(given)) {
+          probe_reach(2 * widest_protection(given)),
+          probes({}, 0.25 * probe_reach) {
         std::vector<TriangleCorners> triangles;
         std::vector<double> reach;
         for (std::uint32_t f = 0; f < faults.size(); ++f) {
@@ -355,7 +357,7 @@ struct LeakFinder::Impl {
                 behind[count++] = i;
             }
         }
-        if (count == 0 || is_protected(to) || proximity.protecting_fault(to) >= 0) {
+        if (count == 0 || is_protected(to) || proximity.protecting_fault(to) >= 0) {  // that rules out most
             return false;
         }
         for (const std::uint32_t i : std::span(behind).first(count)) {
@@ -371,16 +373,15 @@ struct LeakFinder::Impl {
     bool holds_probe(const Cell& cell, const Corners& v, Leak& leak) const {
         bool leaky = false;
         const auto test = [&](std::uint32_t k) { leaky = leaky || leads_to_probe(k, cell, v, leak); };
-        if (leak.radius <= probes.radius()) {
-            probes.visit(leak.center, test);
+        if (leak.radius <= probe_reach) {
+            probes.visit_within(leak.center, leak.radius, test);
             return leaky;
         }
         for (std::size_t k = 0; k < v.size(); ++k) {
             const Vec3& here = sites[v[k]].position;
-            if (std::none_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(k), [&](std::uint32_t i) {
-                    return distance(sites[i].position, here) < 0.1 * probes.radius();
-                })) {
-                probes.visit(here, test);
+            if (std::none_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(k),
+                             [&](std::uint32_t i) { return distance(sites[i].position, here) < 0.1 * probe_reach; })) {
+                probes.visit_within(here, probe_reach, test);
             }
         }
         return leaky;

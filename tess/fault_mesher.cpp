@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "tess/fault_measure.hpp"
@@ -12,7 +13,8 @@
 namespace terratet {
 namespace {
 
-constexpr double zip = 0.15;  ///< in edge lengths: sheets nearer to each other than that become one
+constexpr double zip = 0.15;          ///< in edge lengths: sheets nearer to each other than that become one
+constexpr double widest_exact = 1.5;  ///< radians: the seeds of right-angled neighbours would coincide
 
 /// Which connected piece each triangle belongs to.
 std::vector<std::uint32_t> pieces_of(const FaultComplex& complex) {
@@ -60,16 +62,16 @@ void append(FaultComplex& to, const FaultComplex& more) {
 
 }  // namespace
 
-FaultMesher::FaultMesher(FaultComplex cut, double spacing, double widest, std::vector<char> bounds)
-    : cut_(std::move(cut)), widest_(widest), bounds_(std::move(bounds)), sizes_(spacing) {}
+FaultMesher::FaultMesher(FaultComplex cut, double spacing, FaultMode mode, std::vector<char> bounds)
+    : cut_(std::move(cut)), mode_(mode), bounds_(std::move(bounds)), sizes_(spacing) {}
 
 FaultRemesher::Result FaultMesher::mesh() {
     if (!remesher_ || (!staying_.triangles.empty() && !sizes_.uniform())) {
         staying_ = {};
-        remesher_ = std::make_unique<FaultRemesher>(sizes_.uniform() ? without_staying() : cut_, sizes_, zip, bounds_);
-        patched_ = false;
-    } else {
-        patched_ = true;
+        remesher_ = std::make_unique<FaultRemesher>(
+            sizes_.uniform() ? without_staying() : cut_, sizes_, zip,
+            mode_ == FaultMode::exact ? FaultRemesher::Collapse::where_changed : FaultRemesher::Collapse::everywhere,
+            bounds_);
     }
     FaultRemesher::Result result = remesher_->pass();
     append(result.complex, staying_);
@@ -89,7 +91,7 @@ FaultComplex FaultMesher::without_staying() {
     for (auto& [number, piece] : pieces) {
         piece.points = cut_.points;
         compact(piece);
-        stays[number] = suits(piece, sizes_.spacing(), widest_);
+        stays[number] = suits(piece, sizes_.spacing(), mode_ == FaultMode::exact ? widest_exact : std::numbers::pi);
     }
     const EdgeTable edges(cut_.triangles);
     for (const EdgeTable::Edge& e : edges.edges()) {
@@ -108,13 +110,6 @@ FaultComplex FaultMesher::without_staying() {
     compact(changing);
     compact(staying_);
     return changing;
-}
-
-bool FaultMesher::renew() {
-    if (patched_) {
-        remesher_.reset();
-    }
-    return patched_;
 }
 
 void FaultMesher::want(const std::vector<WantedSize>& wishes) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "tess/fault.hpp"
 #include "tess/fault_complex.hpp"
 #include "tess/fault_remesh.hpp"
 #include "tess/size_field.hpp"
@@ -28,16 +29,14 @@ struct WantedSize {
 class FaultMesher {
   public:
     /// \param cut     sheets that meet in shared edges only (fault_cut.hpp)
-    /// \param widest  radians; pieces with wider angles are remeshed even if their spacing suits
+    /// \param mode    exact: pieces with obtuse angles are remeshed even if their spacing suits, and all are kept
+    ///                 regular
     /// \param bounds  by surface: does the model end at it?
-    FaultMesher(FaultComplex cut, double spacing, double widest, std::vector<char> bounds);
+    FaultMesher(FaultComplex cut, double spacing, FaultMode mode, std::vector<char> bounds);
 
     /// The sheets at the sizes now wanted. Pieces that suit the spacing as they came and meet no other sheet are kept
     /// as they are until something is refined.
     FaultRemesher::Result mesh();
-
-    /// Have triangles been changed since they were made in one go? Then the next mesh() makes them so again.
-    bool renew();
 
     /// Asks for triangles of given sizes.
     void want(const std::vector<WantedSize>& wishes);
@@ -59,7 +58,7 @@ class FaultMesher {
     FaultComplex without_staying();
 
     FaultComplex cut_;
-    double widest_;
+    FaultMode mode_;
     std::vector<char> bounds_;
     SizeField sizes_;
     std::vector<WantedSize> wishes_;
@@ -67,7 +66,6 @@ class FaultMesher {
     std::unique_ptr<FaultRemesher> remesher_;
     std::size_t first_triangles_ = 0;
     std::size_t triangles_ = 0;
-    bool patched_ = false;  ///< by passes after the first
 };
 
 }  // namespace terratet

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -29,8 +28,6 @@ constexpr double unseparated = 0.05;   ///< share of a fault that may stay so in
 constexpr double row_clearance = 0.6;  ///< in edge lengths: a margin row keeps that far from other surfaces
 constexpr int halvings = 3;            ///< of the spacing, where the sides could not be separated
 constexpr int exact_halvings = 1;      ///< against leaks in exact mode: triangles of unequal size are hard to certify
-constexpr int most_renewals = 3;       ///< of the mesh in one go; each may bring new wishes
-constexpr double widest_exact = 1.5;   ///< radians: the seeds of right-angled neighbours would coincide
 
 std::string place_text(const Vec3& p) {
     std::array<char, 96> buffer{};
@@ -302,7 +299,6 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
-    int renewals = 0;
     for (int halving = 0;; ++halving) {
         report_progress(progress_, "meshing faults", 1 - 1 / (1 + 0.2 * passes_++));
         FaultRemesher::Result meshed = mesher_->mesh();
@@ -342,12 +338,6 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
             continue;
         }
         if (!paired) {
-            if (renewals < most_renewals &&
-                mesher_->renew()) {  // what is certified depends on how regular the triangles are
-                ++renewals;
-                --halving;
-                continue;
-            }
             return pass;
         }
         const std::vector<char> inner = inner_triangles(pass.complex, EdgeTable(pass.complex.triangles));
@@ -410,9 +400,7 @@ void FaultPreparer::cut() {
     for (const Candidate& candidate : candidates_) {
         bounds.push_back(is_bound(candidate.surface->kind) ? 1 : 0);
     }
-    mesher_ = std::make_unique<FaultMesher>(std::move(cut_.complex), scale_.spacing,
-                                            options_.mode == FaultMode::exact ? widest_exact : std::numbers::pi,
-                                            std::move(bounds));
+    mesher_ = std::make_unique<FaultMesher>(std::move(cut_.complex), scale_.spacing, options_.mode, std::move(bounds));
     if (options_.refine) {
         mesher_->want(places_near(samples_, mesher_->cut(), scale_.spacing));
     }
@@ -464,7 +452,7 @@ void FaultPreparer::seed(Pass& pass, const SizeField& sizes) const {
         const FaultComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
         const EdgeTable all_edges(whole_complex.triangles);
-        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width});
+        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_});
         pass.skirts.assign(count, FaultMesh{whole_complex.points, {}});
         for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
             pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);
@@ -497,26 +485,35 @@ std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const 
     return result;
 }
 
-bool FaultPreparer::seal(Pass& pass) {
-    report_progress(progress_, "sealing faults", 0);
-    std::vector<Fault> faults;
-    std::vector<std::uint32_t> numbers;
+FaultPreparer::Barriers FaultPreparer::barriers(const Pass& pass) const {
+    Barriers result;
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
         if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
-            faults.push_back(std::move(piece.fault));
-            numbers.push_back(k);
+            result.faults.push_back(std::move(piece.fault));
+            result.numbers.push_back(k);
         }
     }
-    if (faults.empty()) {
-        return true;
+    return result;
+}
+
+bool FaultPreparer::seal(Pass& pass) {
+    FaultSeal sealed;
+    Barriers all;
+    for (bool again = true; again;) {
+        report_progress(progress_, "sealing faults", 0);
+        all = barriers(pass);
+        sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_);
+        again = relax(sealed.open);
+        if (refuse_leaking(sealed.open, all.numbers)) {
+            return false;
+        }
+        if (again) {
+            seed(pass, mesher_->sizes());
+        }
     }
-    FaultSeal sealed = seal_faults(faults, extent_.grown(scale_.hull), frame_);
-    if (refuse_leaking(sealed.open, numbers)) {
-        return false;
-    }
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        pass.seeded.seeds[numbers[f]] = std::move(sealed.seeds[f]);
-        append(pass.skirts[numbers[f]], sealed.flakes[f]);
+    for (std::size_t f = 0; f < all.faults.size(); ++f) {
+        pass.seeded.seeds[all.numbers[f]] = std::move(sealed.seeds[f]);
+        append(pass.skirts[all.numbers[f]], sealed.flakes[f]);
     }
     constexpr double reach = 1 + 1e-6;
     for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {  // their balls have to stay as they were
@@ -531,6 +528,26 @@ bool FaultPreparer::seal(Pass& pass) {
     return true;
 }
 
+/// Gives up certificates where seeds could not be sealed, and leaves those where that did not help. Anything given up?
+bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open) {
+    if (options_.mode == FaultMode::paired) {
+        return false;
+    }
+    const std::size_t before = relaxed_.size();
+    const auto is_relaxed = [&](const FaultSeal::Open& leak) {
+        return std::any_of(relaxed_.begin(), relaxed_.begin() + static_cast<std::ptrdiff_t>(before),
+                           [&](const Vec3& place) { return distance(place, leak.place) < 0.5 * scale_.spacing; });
+    };
+    std::erase_if(open, [&](const FaultSeal::Open& leak) {
+        if (!is_relaxed(leak)) {
+            relaxed_.push_back(leak.place);
+            return true;
+        }
+        return false;
+    });
+    return relaxed_.size() > before;
+}
+
 /// The smaller one of the two involved goes, but never a bound: where two of these leak, their accounts say so.
 bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
                                    const std::vector<std::uint32_t>& numbers) {
@@ -539,14 +556,15 @@ bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
     for (const FaultSeal::Open& leak : open) {
         Candidate& crossed = candidates_[numbers[leak.fault]];
         Candidate& other = candidates_[numbers[leak.owner]];
-        const std::string what = "cannot be sealed at " + place_text(frame_.to_world(leak.place)) + ": edges ";
-        const std::string advice = "use a finer --fault-spacing";
+        const std::string place = place_text(frame_.to_world(leak.place));
         if (bounds(crossed) && bounds(other)) {
-            crossed.account.reason = what + "may cross it there; " + advice;
+            crossed.account.reason =
+                "cannot be sealed at " + place + ": edges may cross it there; use a finer --fault-spacing";
         } else if (crossed.active && other.active) {
             const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
             refuse(crossed_stays ? other : crossed,
-                   what + "would cross it there whatever its seeds; " + advice +
+                   "cannot be sealed at " + place +
+                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
                        (options_.mode == FaultMode::paired ? " or the exact fault mode" : ""));
             any = true;
         }

@@ -82,6 +82,13 @@ class FaultPreparer {
 
     /// False when surfaces were refused that could not be sealed.
     bool seal(Pass& pass);
+    /// The surfaces as faults, but for a domain's walls, and their numbers.
+    struct Barriers {
+        std::vector<Fault> faults;
+        std::vector<std::uint32_t> numbers;
+    };
+    [[nodiscard]] Barriers barriers(const Pass& pass) const;
+    bool relax(std::vector<FaultSeal::Open>& open);
     bool refuse_leaking(const std::vector<FaultSeal::Open>& open, const std::vector<std::uint32_t>& numbers);
 
     /// A surface as a fault, and which triangles of its sheet are certified.
@@ -104,7 +111,8 @@ class FaultPreparer {
     std::vector<Candidate> candidates_;
     CutSheets cut_;  ///< but for its complex, which the mesher has
     std::unique_ptr<FaultMesher> mesher_;
-    int passes_ = 0;  ///< of the mesher
+    std::vector<Vec3> relaxed_;  ///< see SeedTask
+    int passes_ = 0;             ///< of the mesher
 };
 
 }  // namespace terratet

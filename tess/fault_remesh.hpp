@@ -15,10 +15,16 @@ namespace terratet {
 /// Sheets under remeshing, to be gone on with when other sizes are wanted or a surface is left out.
 class FaultRemesher {
   public:
+    /// In later passes short edges, left over from smoothing, are collapsed where sizes have changed, or everywhere.
+    /// The former keeps triangles as regular as they are, which certificates depend on (exact mode); the latter keeps
+    /// their points, and so mirrored pairs, from standing too close (paired mode).
+    enum class Collapse { where_changed, everywhere };
+
     /// Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it. `sizes` must outlive
     /// the remesher and may change between passes. `bounds`, by sheet, marks those the model ends at: they go before
     /// all others, whose points join them and never the other way round, so that bounds in a plane stay in it.
-    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap, std::span<const char> bounds = {});
+    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap, Collapse later,
+                  std::span<const char> bounds = {});
     ~FaultRemesher();
 
     struct Result {

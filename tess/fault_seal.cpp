@@ -26,22 +26,22 @@ class Sealer {
     }
 
     FaultSeal run() {
-        for (int round = 0;; ++round) {
-            bool again = false;
+        for (int round = 0; round <= rounds; ++round) {
+            bool changes = false;
             for (const Leak& leak : finder_.find()) {
-                if (close_by_flake(leak) || will_change(leak)) {
-                    continue;
-                }
-                if (round == rounds || !(add_pair(leak) || drop_pair(leak) || keep_away(leak))) {
+                if (close_by_flake(leak) || will_change(leak) ||
+                    (round < rounds && (add_pair(leak) || drop_pair(leak) || keep_away(leak)))) {
+                    changes = true;
+                } else {
                     seal_.open.push_back({leak.fault, finder_.sites()[leak.from].owner, leak.place});
                 }
-                again = true;
             }
-            if (!again || round == rounds) {
-                return result();
+            if (!changes) {
+                break;
             }
             exchange();
         }
+        return result();
     }
 
   private:
@@ -155,8 +155,9 @@ class Sealer {
                 seal_.seeds[site.owner].push_back({site.position, static_cast<std::int8_t>(i == site.first ? 1 : -1)});
             }
         }
-        std::ranges::sort(seal_.open, {},
-                          [](const FaultSeal::Open& o) { return std::tuple(o.fault, o.owner, o.place); });
+        const auto by_fault = [](const FaultSeal::Open& o) { return std::tuple(o.fault, o.owner, o.place); };
+        std::ranges::sort(seal_.open, {}, by_fault);
+        seal_.open.erase(std::ranges::unique(seal_.open, {}, by_fault).begin(), seal_.open.end());
         return std::move(seal_);
     }
 

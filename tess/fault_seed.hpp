@@ -5,6 +5,7 @@
 /// Internal: the seeds of a remeshed fault complex, in either mode, and what can be certified of them (DESIGN §4.2).
 
 #include <set>
+#include <span>
 #include <vector>
 
 #include "tess/fault.hpp"
@@ -22,7 +23,8 @@ struct SeedTask {
     const SizeField& sizes;
     const Frame& frame;
     std::uint32_t surface_count = 0;
-    double width = 0;  ///< ε at the full spacing; smaller in proportion where triangles are
+    double width = 0;                 ///< ε at the full spacing; smaller in proportion where triangles are
+    std::span<const Vec3> relaxed{};  ///< about an edge length round these nothing need be certified (exact mode)
 };
 
 struct SeededComplex {
@@ -39,9 +41,11 @@ struct SeededComplex {
 SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& skirts);
 
 /// Exact: for each triangle g± = c ± h n, h² = r_i² − |c − p_i|², with the corners' radii r_i = 1.01 max R_t and c
-/// their radical centre in its plane. Certified are triangles with h² > 0, no seed strictly inside a corner's ball, and
-/// nothing between triangle and seed. The others get h = min(0.15 s, 0.9 d tan(θ/2)) over a foot inside, with rings of
-/// pairs along their junctions, wherever that enters no certified corner's ball.
+/// their radical centre in its plane, if h² > 0, nothing stands between triangle and seed, and no seed is strictly
+/// inside the ball of another triangle's corner; where two exclude each other, the one with fewer conflicts has them.
+/// The others get h = min(0.15 s, 0.9 d tan(θ/2)) over a foot inside, with rings of pairs along their junctions,
+/// wherever that enters no such ball; else nothing, and sealing sees to it. Certified are triangles with seeds of the
+/// first kind and nothing strictly inside their corners' balls.
 SeededComplex exact_seeds(const SeedTask& task);
 
 /// Shared by the two.

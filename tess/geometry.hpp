@@ -22,7 +22,7 @@ struct Vec3 {
     double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
     double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
     friend bool operator==(const Vec3&, const Vec3&) = default;
-    friend auto operator<=>(const Vec3&, const Vec3&) = default;
+    friend auto operator<=>(const Vec3&, const Vec3&) = default;  // NOLINT(modernize-use-nullptr): not a pointer's 0
 };
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) {

@@ -48,9 +48,27 @@ class SeedGrid {
     template <class Visit>
     void visit(const Vec3& p, const Visit& call) const {
         const Index centre = index(p);
-        for (std::int64_t i = centre[0] - 1; i <= centre[0] + 1; ++i) {
-            for (std::int64_t j = centre[1] - 1; j <= centre[1] + 1; ++j) {
-                for (std::int64_t k = centre[2] - 1; k <= centre[2] + 1; ++k) {
+        visit_cells({centre[0] - 1, centre[1] - 1, centre[2] - 1}, {centre[0] + 1, centre[1] + 1, centre[2] + 1}, call);
+    }
+
+    /// The same for a radius of any length.
+    template <class Visit>
+    void visit_within(const Vec3& p, double radius, const Visit& call) const {
+        const Vec3 reach{radius, radius, radius};
+        visit_cells(index(p - reach), index(p + reach), call);
+    }
+
+    [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
+    [[nodiscard]] double radius() const { return radius_; }
+
+  private:
+    using Index = std::array<std::int64_t, 3>;
+
+    template <class Visit>
+    void visit_cells(const Index& lo, const Index& hi, const Visit& call) const {
+        for (std::int64_t i = lo[0]; i <= hi[0]; ++i) {
+            for (std::int64_t j = lo[1]; j <= hi[1]; ++j) {
+                for (std::int64_t k = lo[2]; k <= hi[2]; ++k) {
                     if (const auto cell = cells_.find(key({i, j, k})); cell != cells_.end()) {
                         for (const std::uint32_t n : cell->second) {
                             call(n);
@@ -61,11 +79,6 @@ class SeedGrid {
         }
     }
 
-    [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
-    [[nodiscard]] double radius() const { return radius_; }
-
-  private:
-    using Index = std::array<std::int64_t, 3>;
     [[nodiscard]] Index index(const Vec3& p) const {
         return {static_cast<std::int64_t>(std::floor(p.x / radius_)),
                 static_cast<std::int64_t>(std::floor(p.y / radius_)),

@@ -414,7 +414,7 @@ TEST_CASE(
         CHECK(result.report.conformity.leaking <= 1);  // a corner of a fault has no node that could be split
         CHECK(result.report.apart.empty());
         // Few but where faults cross at a sharp angle.
-        CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(model.faults.size() == 1 ? 1e-3 : 0.03));
+        CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(model.faults.size() == 1 ? 1e-3 : 0.06));
         CHECK(result.report.aside.size() <= (model.faults.size() == 1 ? 0 : triangle_count(model)));
 
         const Surface& sheet = model.faults[0].sheet;
@@ -481,8 +481,10 @@ TEST_CASE("Where faults meet, each wedge has a node of its own, and the blocks s
             const CollapsedModel result = collapsed(model);
             check(result);
             CHECK(result.cells.region_count == static_cast<std::int32_t>(blocks));
-            CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(3e-3));
-            CHECK(result.report.aside.size() + result.report.apart.size() <= triangle_count(model) / 10);
+            const bool exact = mode == FaultMode::exact;
+            CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(exact ? 0.03 : 1e-3));
+            CHECK(result.report.aside.size() + result.report.apart.size() <=
+                  triangle_count(model) / (exact ? 10 : 100));
             std::size_t most = 0;
             for (const auto& [place, nodes] : nodes_by_place(result)) {
                 most = std::max(most, nodes.size());

@@ -132,8 +132,7 @@ FaultComplex complex_of(const std::vector<Fault>& faults) {
 
 struct Wedges {
     double sharpest_deg = 180;
-    double length = 0;        ///< of all junctions
-    double sharp_length = 0;  ///< of those below 10°
+    double length = 0;  ///< of all junctions
 };
 
 /// Where sheets meet.
@@ -144,10 +143,8 @@ Wedges wedges(const FaultComplex& complex) {
         const auto of_edge = edges.triangles(e);
         if (of_edge.size() > 1 && !is_smooth(complex, of_edge)) {
             const double angle = wedge_angle(complex, of_edge, e.a, e.b) * 180 / std::numbers::pi;
-            const double here = distance(complex.points[e.a], complex.points[e.b]);
             result.sharpest_deg = std::min(result.sharpest_deg, angle);
-            result.length += here;
-            result.sharp_length += angle < 10 ? here : 0;
+            result.length += distance(complex.points[e.a], complex.points[e.b]);
         }
     }
     return result;
@@ -249,7 +246,7 @@ TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most
     Tally tally;
     check_accounts(surfaces, preparation, tally);
     CHECK(tally.used == 15);
-    CHECK(static_cast<double>(tally.certified) >= 0.85 * static_cast<double>(tally.triangles));
+    CHECK(static_cast<double>(tally.certified) >= 0.9 * static_cast<double>(tally.triangles));
     const Box3 hull = extent.grown(hull_margin(options, 1000));
     const auto counted = testing::count_crossings(preparation.faults, hull, 20000, 1, 3);
     CHECK(counted.paired > 100'000);
@@ -258,8 +255,8 @@ TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most
     const FaultComplex complex = complex_of(preparation.faults);
     CHECK(crossing_triangles(complex).empty());
     const Wedges measured = wedges(complex);
-    CHECK(measured.sharpest_deg > 2);
-    CHECK(measured.sharp_length < 0.01 * measured.length);
+    CHECK(measured.length > 200'000);
+    CHECK(measured.sharpest_deg >= 10);
     CHECK(told_wrong(preparation.faults, 170'000) == 0);
 }
 

@@ -8,12 +8,18 @@ import os
 import pathlib
 import subprocess
 import unittest
+from random import Random
 
 from terratet import Case, ROOT
 
 DATA = pathlib.Path(os.environ.get("TERRATET_PUBLIC_DATA", ROOT.parent / "shared" / "data"))
 BABBITT = DATA / "pygslib/doc/source/Tutorial_1/Babbitt"
 DEMO1 = DATA / "pygslib/pygslib/data/Demo1/data"
+SCEC = DATA / "scec_cfm"
+VENTURA = ["VNTB-Ventura_fault_steep", "PPTV-Pitas_Point_fault_east", "RDMT-Red_Mountain_fault_S_strand",
+           "VNTB-Southern_San_Cayetano_fault_steep", "ORFZ-MULT-Oak_Ridge", "ORFZ-OFFS-Mid_Channel",
+           "ORFZ-SFNV-Northridge_Frew", "SCLV-Del_Valle", "SCLV-Holser", "SCFZ-TOPA-San_Cayetano", "MSNH-Mission_Hills",
+           "SFNV-Northridge_Hills", "SFNV-San_Fernando", "SSFZ-MULT-Santa_Susana", "SSRZ-MULT-Simi"]
 OUTPUTS = ["m.gpkg", "m.vtu", "m.glb", "m.vdb", "m.csv"]
 
 
@@ -29,6 +35,19 @@ def dipping_fault(center, strike, dip, half_length, half_width, step):
                 center[1] + along * math.cos(strike) - down * math.cos(dip) * math.sin(strike),
                 center[2] - down * math.sin(dip)))
     return "\n".join(rows) + "\n"
+
+
+def made_up_wells(box, count):
+    """Collars and logs of vertical wells with a smooth property."""
+    random = Random(4)
+    collars, log = ["hole,x,y,z"], ["hole,from,to,value"]
+    for hole in range(count):
+        x, y = (random.uniform(box[k] + 2000, box[k + 2] - 2000) for k in (0, 1))
+        collars.append("W%d,%.1f,%.1f,0" % (hole, x, y))
+        for top in range(0, int(random.uniform(2000, 9000)), 100):
+            value = math.sin(x / 9000) + math.cos(y / 7000) + top / 4000
+            log.append("W%d,%d,%d,%.4f" % (hole, top, top + 100, value))
+    return "\n".join(collars) + "\n", "\n".join(log) + "\n"
 
 
 class RealData(Case):
@@ -77,6 +96,25 @@ class RealData(Case):
         self.assertLess(report["final"]["bad_percent"], 3)
         self.read_back(report)
         self.succeed("check", "m.gpkg")
+
+    @unittest.skipUnless(SCEC.exists(), "public data set scec_cfm is not there")
+    def test_fifteen_faults_that_meet_and_made_up_wells(self):
+        """All guarantees hold on the Ventura, Oak Ridge, San Cayetano, Northridge and San Fernando faults in exact mode."""
+        files = [path for path in sorted(SCEC.rglob("*.ts")) if any(part in path.name for part in VENTURA)]
+        first = {next(part for part in VENTURA if part in path.name): path for path in reversed(files)}
+        self.assertEqual(len(first), 15)
+        collars, log = made_up_wells((225500, 3777000, 382700, 3828600), 40)
+        faults = [argument for path in sorted(first.values()) for argument in ("--faults", path)]
+        self.succeed("build", "--boreholes", self.write("collar.csv", collars), "--log", self.write("log.csv", log),
+                     *faults, "-s_srs", "EPSG:32611", "--property", "value", "--estimator", "idw", "--fault-mode", "exact",
+                     "--fault-spacing", "2000", "--lmin", "1500", "--lmax", "6000", "--report", "report.json", "-o", "m.gpkg")
+        report = self.report()
+        self.assertGreaterEqual(sum(fault["used"] for fault in report["faults"]), 14, report["faults"])
+        self.assertEqual(report["final"]["fault_crossing_edges"], 0)
+        triangles, certified = (sum(fault[key] for fault in report["faults"]) for key in ("triangles", "certified"))
+        self.assertGreater(certified, 0.85 * triangles)
+        check = self.succeed("check", "m.gpkg")
+        self.assertNotIn("FAILS", check.stdout)
 
 
 if __name__ == "__main__":

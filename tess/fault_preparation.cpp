@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <numeric>
-#include <tuple>
 
 #include "tess/error.hpp"
 #include "tess/fault_approach.hpp"
@@ -20,41 +18,10 @@
 namespace terratet {
 namespace {
 
-constexpr double tangle_limit = 5;     ///< area over that of the extent's faces: no surface is folded so often
-constexpr double most_dropped = 0.5;   ///< share of a fault that may be lost in repair
-constexpr double crumb = 0.5;          ///< in spacings: smaller parts go
-constexpr double alternative = 0.6;    ///< share of a fault that may run alongside another; in spacings, how near
 constexpr double unseparated = 0.05;   ///< share of a fault that may stay so in paired mode
 constexpr double row_clearance = 0.6;  ///< in edge lengths: a margin row keeps that far from other surfaces
 constexpr int halvings = 3;            ///< of the spacing, where the sides could not be separated
 constexpr int exact_halvings = 1;      ///< against leaks in exact mode: triangles of unequal size are hard to certify
-
-std::string place_text(const Vec3& p) {
-    std::array<char, 96> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "(%.1f, %.1f, %.1f)", p.x, p.y, p.z);
-    return buffer.data();
-}
-
-double area_of_faces(const Box3& box) {
-    const Vec3 size = box.size();
-    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-}
-
-FaultMesh whole(const RepairedFault& repaired) {
-    FaultMesh mesh;
-    for (const FaultMesh& part : repaired.parts) {
-        append(mesh, part);
-    }
-    return mesh;
-}
-
-double area_within(const RepairedFault& repaired, const Box3& extent) {
-    double sum = 0;
-    for (const FaultMesh& part : repaired.parts) {
-        sum += area(cut_to_box(part, extent).inside);
-    }
-    return sum;
-}
 
 bool crosses_itself(const FaultMesh& mesh) {
     const FaultComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
@@ -70,20 +37,6 @@ void weld(FaultMesh& mesh) {
         }
     }
     compact(mesh);
-}
-
-const char* advice_on_overlap(SurfaceKind with) {
-    switch (with) {
-        case SurfaceKind::fault:
-            return ": alternative versions of one fault? keep one of them";
-        case SurfaceKind::horizon:
-            return ": where the two run together keep one of them, and let the other end there";
-        case SurfaceKind::topography:
-            return ": let it end where it comes to the ground";
-        case SurfaceKind::domain:
-            return ": a fault cannot be a domain's boundary; let the domain reach beyond it";
-    }
-    return "";
 }
 
 Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
@@ -129,83 +82,11 @@ FaultPreparation FaultPreparer::run() {
     return result;
 }
 
-void FaultPreparer::repair() {
-    double done = 0;
-    for (const Surface& surface : surfaces_) {
-        report_progress(progress_, "repairing faults", done++ / static_cast<double>(surfaces_.size()));
-        Candidate candidate;
-        candidate.surface = &surface;
-        candidate.repaired = repair_fault(surface, 1e-9 * std::max(extent_.diagonal(), 1e-3));
-        screen(candidate);
-        candidates_.push_back(std::move(candidate));
-    }
-    std::ranges::stable_sort(candidates_, [](const Candidate& a, const Candidate& b) {
-        return std::tie(a.surface->name, a.surface->file, a.account.area_in, a.surface->vertices,
-                        a.surface->triangles) <
-               std::tie(b.surface->name, b.surface->file, b.account.area_in, b.surface->vertices, b.surface->triangles);
-    });
-}
-
-void FaultPreparer::screen(Candidate& candidate) {
-    FaultAccount& account = candidate.account;
-    account.name = candidate.surface->name;
-    account.kind = candidate.surface->kind;
-    account.file = candidate.surface->file;
-    account.parts = candidate.repaired.parts.size();
-    account.dropped_triangles = candidate.repaired.dropped;
-    account.area_in = candidate.repaired.area;
-    candidate.area_inside = area_within(candidate.repaired, extent_);
-    account.area_outside = std::max(0.0, account.area_in - candidate.area_inside);
-    if (account.area_in <= 0) {
-        refuse(candidate, "has no triangle with an area");
-        return;
-    }
-    if (candidate.area_inside <= 1e-12 * account.area_in) {
-        account.area_outside = account.area_in;
-        candidate.area_inside = 0;
-        refuse(candidate, "lies wholly outside the extent");
-        return;
-    }
-    if (candidate.area_inside > tangle_limit * area_of_faces(extent_)) {
-        refuse(candidate, "is no surface but a tangle of triangles: within the extent its area is " +
-                              short_text(candidate.area_inside / area_of_faces(extent_)) +
-                              " times that of the extent's faces; check the order of its corners");
-        return;
-    }
-    drop_self_crossings(candidate.repaired);
-    drop_crumbs(candidate.repaired.parts);
-    if (candidate.repaired.parts.empty()) {
-        refuse(candidate,
-               "is in pieces, none of which is as large as half the fault spacing " + short_text(scale_.spacing));
-        return;
-    }
-    drop_doubles(candidate.repaired.parts);
-    const double left = area_within(candidate.repaired, extent_);
-    candidate.area_dropped = std::max(0.0, candidate.area_inside - left);
-    if (left < (1 - most_dropped) * candidate.area_inside) {
-        refuse(candidate,
-               "is no surface: most of it runs through itself, lies on itself, or is in pieces smaller than "
-               "half the fault spacing");
-    }
-}
-
-/// What the spacing cannot show.
-void FaultPreparer::drop_crumbs(std::vector<FaultMesh>& parts) const {
-    std::erase_if(parts,
-                  [&](const FaultMesh& part) { return bounding_box(part.points).diagonal() < crumb * scale_.spacing; });
-}
-
-/// Parts that run alongside a larger one of the same surface.
-void FaultPreparer::drop_doubles(std::vector<FaultMesh>& parts) const {
-    std::ranges::stable_sort(parts, std::greater{}, [](const FaultMesh& part) { return area(part); });
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-        const Alongside test(parts[i]);
-        const auto doubles =
-            std::remove_if(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, parts.end(), [&](const FaultMesh& part) {
-                return test.share_of(part, extent_, alternative * scale_.spacing) > alternative;
-            });
-        parts.erase(doubles, parts.end());
-    }
+std::string FaultPreparer::text_of(const Vec3& place) const {
+    const Vec3 p = frame_.to_world(place);
+    std::array<char, 96> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "(%.1f, %.1f, %.1f)", p.x, p.y, p.z);
+    return buffer.data();
 }
 
 void FaultPreparer::refuse(Candidate& candidate, const std::string& reason) {
@@ -216,51 +97,6 @@ void FaultPreparer::refuse(Candidate& candidate, const std::string& reason) {
 
 std::string FaultPreparer::described(const Candidate& candidate) {
     return std::string(to_string(candidate.surface->kind)) + " '" + candidate.surface->name + "'";
-}
-
-/// The largest first, bounds before all; one that mostly runs alongside another is a second version of it, unless it is
-/// a wall of the domain, which is as near to the next one as the outline has it.
-void FaultPreparer::refuse_alternatives() {
-    std::vector<std::size_t> order(candidates_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) {
-        return std::pair(is_bound(candidates_[k].surface->kind), candidates_[k].area_inside);
-    });
-    std::vector<FaultMesh> meshes;
-    for (const Candidate& candidate : candidates_) {
-        meshes.push_back(candidate.active ? whole(candidate.repaired) : FaultMesh{});
-    }
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Candidate& larger = candidates_[order[i]];
-        if (!larger.active) {
-            continue;
-        }
-        const Alongside test(meshes[order[i]]);
-        for (std::size_t j = i + 1; j < order.size(); ++j) {
-            Candidate& smaller = candidates_[order[j]];
-            if (smaller.active && smaller.surface->kind != SurfaceKind::domain &&
-                test.share_of(meshes[order[j]], extent_, alternative * scale_.spacing) > alternative) {
-                refuse(smaller, "overlaps " + described(larger) + advice_on_overlap(larger.surface->kind));
-            }
-        }
-    }
-}
-
-void FaultPreparer::check_budget() const {
-    const double per_area = (options_.mode == FaultMode::exact ? 4.7 : 2.4) / (scale_.spacing * scale_.spacing);
-    double seeds = 0;
-    const Candidate* largest = nullptr;
-    for (const Candidate& candidate : candidates_) {
-        if (candidate.active) {
-            seeds += per_area * candidate.area_inside;
-            largest = largest == nullptr || candidate.area_inside > largest->area_inside ? &candidate : largest;
-        }
-    }
-    if (seeds > static_cast<double>(options_.max_seeds)) {
-        throw Error("the faults need about " + short_text(seeds) + " seeds, most of them '" + largest->account.name +
-                    "', and max_seeds allows " + std::to_string(options_.max_seeds) +
-                    ": raise --fault-spacing, or leave faults out");
-    }
 }
 
 /// A rim that wavers may not be continued beyond its face, or not as far as to it: then it ends where it ended.
@@ -359,7 +195,7 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         for (std::size_t k = 0; k < bad.size(); ++k) {
             if (bad[k] > unseparated * candidates_[k].area_inside) {
                 refuse(candidates_[k],
-                       "bends too sharply at " + place_text(frame_.to_world(where[k])) +
+                       "bends too sharply at " + text_of(where[k]) +
                            ": mirrored seeds cannot tell its sides apart there; use a finer --fault-spacing" +
                            (is_bound(candidates_[k].surface->kind) ? "" : " or the exact fault mode"));
                 refused = true;
@@ -483,93 +319,6 @@ std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const 
         result.push_back(skirt(sheet, rim, scale_.margin, extent_, limit_));
     }
     return result;
-}
-
-FaultPreparer::Barriers FaultPreparer::barriers(const Pass& pass) const {
-    Barriers result;
-    for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
-        if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
-            result.faults.push_back(std::move(piece.fault));
-            result.numbers.push_back(k);
-        }
-    }
-    return result;
-}
-
-bool FaultPreparer::seal(Pass& pass) {
-    FaultSeal sealed;
-    Barriers all;
-    for (bool again = true; again;) {
-        report_progress(progress_, "sealing faults", 0);
-        all = barriers(pass);
-        sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_);
-        again = relax(sealed.open);
-        if (refuse_leaking(sealed.open, all.numbers)) {
-            return false;
-        }
-        if (again) {
-            seed(pass, mesher_->sizes());
-        }
-    }
-    for (std::size_t f = 0; f < all.faults.size(); ++f) {
-        pass.seeded.seeds[all.numbers[f]] = std::move(sealed.seeds[f]);
-        append(pass.skirts[all.numbers[f]], sealed.flakes[f]);
-    }
-    constexpr double reach = 1 + 1e-6;
-    for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {  // their balls have to stay as they were
-        if (pass.seeded.certified[t] != 0) {
-            pass.seeded.certified[t] = std::ranges::none_of(pass.complex.triangles[t], [&](std::uint32_t v) {
-                return std::ranges::any_of(sealed.changed, [&](const Vec3& p) {
-                    return distance(p, pass.complex.points[v]) < reach * pass.seeded.radius[v];
-                });
-            });
-        }
-    }
-    return true;
-}
-
-/// Gives up certificates where seeds could not be sealed, and leaves those where that did not help. Anything given up?
-bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open) {
-    if (options_.mode == FaultMode::paired) {
-        return false;
-    }
-    const std::size_t before = relaxed_.size();
-    const auto is_relaxed = [&](const FaultSeal::Open& leak) {
-        return std::any_of(relaxed_.begin(), relaxed_.begin() + static_cast<std::ptrdiff_t>(before),
-                           [&](const Vec3& place) { return distance(place, leak.place) < 0.5 * scale_.spacing; });
-    };
-    std::erase_if(open, [&](const FaultSeal::Open& leak) {
-        if (!is_relaxed(leak)) {
-            relaxed_.push_back(leak.place);
-            return true;
-        }
-        return false;
-    });
-    return relaxed_.size() > before;
-}
-
-/// The smaller one of the two involved goes, but never a bound: where two of these leak, their accounts say so.
-bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
-                                   const std::vector<std::uint32_t>& numbers) {
-    const auto bounds = [](const Candidate& candidate) { return is_bound(candidate.surface->kind); };
-    bool any = false;
-    for (const FaultSeal::Open& leak : open) {
-        Candidate& crossed = candidates_[numbers[leak.fault]];
-        Candidate& other = candidates_[numbers[leak.owner]];
-        const std::string place = place_text(frame_.to_world(leak.place));
-        if (bounds(crossed) && bounds(other)) {
-            crossed.account.reason =
-                "cannot be sealed at " + place + ": edges may cross it there; use a finer --fault-spacing";
-        } else if (crossed.active && other.active) {
-            const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
-            refuse(crossed_stays ? other : crossed,
-                   "cannot be sealed at " + place +
-                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
-                       (options_.mode == FaultMode::paired ? " or the exact fault mode" : ""));
-            any = true;
-        }
-    }
-    return any;
 }
 
 void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {

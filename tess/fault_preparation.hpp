@@ -67,6 +67,7 @@ class FaultPreparer {
     void drop_crumbs(std::vector<FaultMesh>& parts) const;
     void drop_doubles(std::vector<FaultMesh>& parts) const;
     void refuse(Candidate& candidate, const std::string& reason);
+    [[nodiscard]] std::string text_of(const Vec3& place) const;  ///< its world coordinates
     static std::string described(const Candidate& candidate);
     void refuse_alternatives();
     void check_budget() const;

@@ -25,6 +25,9 @@ bool FaultPreparer::seal(Pass& pass) {
     for (bool again = true; again;) {
         report_progress(progress_, "sealing faults", 0);
         all = barriers(pass);
+        if (all.faults.empty()) {
+            return true;
+        }
         sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_);
         again = relax(sealed.open);
         if (refuse_leaking(sealed.open, all.numbers)) {

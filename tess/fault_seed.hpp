@@ -43,9 +43,9 @@ SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& s
 /// Exact: for each triangle g± = c ± h n, h² = r_i² − |c − p_i|², with the corners' radii r_i = 1.01 max R_t and c
 /// their radical centre in its plane, if h² > 0, nothing stands between triangle and seed, and no seed is strictly
 /// inside the ball of another triangle's corner; where two exclude each other, the one with fewer conflicts has them.
-/// The others get h = min(0.15 s, 0.9 d tan(θ/2)) over a foot inside, with rings of pairs along their junctions,
-/// wherever that enters no such ball; else nothing, and sealing sees to it. Certified are triangles with seeds of the
-/// first kind and nothing strictly inside their corners' balls.
+/// The others get h = min(0.15 s, 0.9 d tan(θ/2)) over a foot inside, or as high as such balls reach there, with rings
+/// of pairs along their junctions, wherever that enters none of them; else nothing, and sealing sees to it. Certified
+/// are triangles with seeds of the first kind and nothing strictly inside their corners' balls.
 SeededComplex exact_seeds(const SeedTask& task);
 
 /// Shared by the two.

@@ -9,20 +9,25 @@
 #include <vector>
 
 #include "tess/error.hpp"
+#include "tools/text.hpp"
 
 namespace terratet::tools {
 
-/// What `word` stands for. Throws UsageError that names the option and lists what there is.
+/// What `word` stands for. Throws UsageError that names the option, the nearest word, and what there is.
 template <class T>
 T choose(const std::string& option, const std::string& word, const std::vector<std::pair<std::string, T>>& choices) {
     std::string known;
+    std::vector<std::string> names;
     for (const auto& [name, value] : choices) {
         if (name == word) {
             return value;
         }
         known += (known.empty() ? "" : ", ") + name;
+        names.push_back(name);
     }
-    throw UsageError(option + ": '" + word + "' is not one of " + known);
+    const std::string nearest = nearest_word(word, names);
+    throw UsageError(option + ": '" + word + "' is not one of " + known +
+                     (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
 }  // namespace terratet::tools

@@ -44,5 +44,6 @@ CommandEntry info_command();
 CommandEntry check_command();
 CommandEntry query_command();
 CommandEntry validate_command();
+CommandEntry completion_command();
 
 }  // namespace terratet::tools

@@ -8,7 +8,6 @@
 
 #include "interp/model_source.hpp"
 #include "io/model_store.hpp"
-#include "tess/error.hpp"
 #include "tess/verify.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_display.hpp"
@@ -61,10 +60,7 @@ class Check final : public Command {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
             verdicts = verify(model, factory, display.callback());
         }
-        std::fputs((json_ ? as_json(verdicts) : as_lines(verdicts)).c_str(), stdout);
-        if (std::fflush(stdout) != 0) {
-            throw Error("standard output cannot be written to");
-        }
+        print(json_ ? as_json(verdicts) : as_lines(verdicts));
         const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds; });
         return all ? exit_done : exit_failed;
     }

@@ -11,8 +11,9 @@
 namespace terratet::tools {
 
 const std::vector<CommandEntry>& commands() {
-    static const std::vector<CommandEntry> table{build_command(), convert_command(), export_command(),
-                                                 info_command(),  check_command(),   query_command(), validate_command()};
+    static const std::vector<CommandEntry> table{build_command(),    convert_command(),   export_command(),
+                                                 info_command(),     check_command(),     query_command(),
+                                                 validate_command(), completion_command()};
     return table;
 }
 
@@ -23,6 +24,11 @@ const CommandEntry& find_command(const std::string& name) {
             return entry;
         }
         names.push_back(entry.name);
+    }
+    if (name.starts_with('-')) {
+        const std::string nearest = nearest_word(name, {"--help", "--version", "--json-usage"});
+        throw UsageError(fmt::format("unknown option {}{}; a command comes first: 'terratet help' lists them", name,
+                                     nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
     }
     const std::string nearest = nearest_word(name, names);
     throw UsageError(nearest.empty() ? fmt::format("unknown command '{}'; 'terratet help' lists them", name)

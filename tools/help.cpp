@@ -145,20 +145,41 @@ std::string general_help() {
         "Usage: terratet COMMAND …\n\n"
         "From borehole logs and faults to an adaptive Delaunay tessellation of the\nground.\n\nCommands:\n";
     for (const auto& entry : commands()) {
-        out += fmt::format("  {:10}{}\n", entry.name, entry.summary);
+        out += fmt::format("  {:12}{}\n", entry.name, entry.summary);
     }
-    out += "  help      on a command, or a topic:\n";
+    out += "  help        on a command, or a topic:\n";
     out += fmt::format("    {:12}{}\n", estimators_topic, "how values reach new vertices, with every option");
     for (const auto& topic : topics) {
         out += fmt::format("    {:12}{}\n", topic.name, topic.summary);
     }
     return out +
-           "\nOptions:\n  --version   print the version\n  --help      after a command: its options and examples\n"
+           "\nOptions:\n  --version     print the version\n  --help        after a command: its options and examples\n"
+           "  --json-usage  all commands and options as JSON\n"
            "\nOne dash will do, as in GDAL: -t_srs is --t_srs.\n";
 }
 
+std::string short_usage() {
+    std::string names;
+    for (const auto& entry : commands()) {
+        names += (names.empty() ? "" : ", ") + entry.name;
+    }
+    return "Usage: terratet COMMAND …\n\nCommands: " + wrapped(names, 10, 10) +
+           "\n\nFor example:\n  terratet convert --boreholes collar.csv --log log.csv -s_srs EPSG:3067 model.vtu\n"
+           "\n'terratet help' says what they do, 'terratet COMMAND --help' how.\n";
+}
+
+std::vector<std::string> help_subjects() {
+    std::vector<std::string> subjects{estimators_topic};
+    for (const auto& topic : topics) {
+        subjects.emplace_back(topic.name);
+    }
+    for (const auto& entry : commands()) {
+        subjects.push_back(entry.name);
+    }
+    return subjects;
+}
+
 std::string help_on(const std::string& subject) {
-    std::vector<std::string> known{estimators_topic};
     if (subject == estimators_topic) {
         return estimators_help();
     }
@@ -166,19 +187,19 @@ std::string help_on(const std::string& subject) {
         if (subject == topic.name) {
             return topic.text;
         }
-        known.emplace_back(topic.name);
     }
     for (const auto& entry : commands()) {
         if (subject == entry.name) {
             return command_help(entry);
         }
-        known.push_back(entry.name);
     }
+    const std::string nearest = nearest_word(subject, help_subjects());
     std::string list;
-    for (const auto& name : known) {
+    for (const auto& name : help_subjects()) {
         list += (list.empty() ? "" : ", ") + name;
     }
-    throw UsageError(fmt::format("there is no help on '{}'; there is on {}", subject, list));
+    throw UsageError(fmt::format("there is no help on '{}'{}; there is on {}", subject,
+                                 nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), list));
 }
 
 }  // namespace terratet::tools

@@ -16,6 +16,8 @@
 #include "tools/command_line.hpp"
 #include "tools/help.hpp"
 #include "tools/interrupt.hpp"
+#include "tools/json_usage.hpp"
+#include "tools/man_page.hpp"
 #include "tools/text.hpp"
 #include "tools/version.hpp"
 
@@ -29,24 +31,24 @@ void start_log() {
     spdlog::set_default_logger(std::move(logger));
 }
 
-int print(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw Error("standard output cannot be written to");
-    }
-    return exit_done;
-}
-
 bool asks_for_help(const std::string& argument) {
     return argument == "--help" || argument == "-help" || argument == "-h";
 }
 
 int dispatch(const std::vector<std::string>& arguments) {
     if (arguments.empty()) {
-        throw UsageError("no command; 'terratet help' lists them");
+        std::fputs(short_usage().c_str(), stderr);
+        return exit_usage;
     }
     const std::string& name = arguments.front();
     if (name == "--version" || name == "-version") {
         return print(std::string("terratet ") + version + "\n");
+    }
+    if (name == "--json-usage" || name == "-json-usage") {
+        return print(json_usage());
+    }
+    if (name == "--man" || name == "-man") {  // for the build, which installs the pages
+        return print(arguments.size() > 1 ? man_page(find_command(arguments[1])) : man_page());
     }
     if (name == "help" || asks_for_help(name)) {
         return print(arguments.size() > 1 ? help_on(arguments[1]) : general_help());
@@ -69,6 +71,13 @@ int fail(int exit_code, const char* what) {
 }
 
 }  // namespace
+
+int print(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw Error("standard output cannot be written to");
+    }
+    return exit_done;
+}
 
 int run_terratet(const std::vector<std::string>& arguments) {
     try {

@@ -22,6 +22,9 @@ inline constexpr int exit_unmet = 4;  ///< done, but criteria stay unmet and --s
 /// error that begins with "terratet: ", and an exit code; nothing is thrown.
 int run_terratet(const std::vector<std::string>& arguments);
 
+/// Writes data to standard output and returns exit_done. Throws Error when it cannot.
+int print(const std::string& text);
+
 class Stopwatch {
   public:
     [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -24,7 +24,6 @@ class Usage(Case):
         self.usage("convert", "--samples", "s.csv", "-s_srs", "EPSG:3067", *arguments, "o.csv", saying=saying)
 
     def test_command(self):
-        self.usage(saying="no command")
         self.usage("biuld", saying="did you mean build?")
         self.usage("help", "kriging", saying="there is no help on 'kriging'")
 

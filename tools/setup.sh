@@ -19,7 +19,8 @@ TEST_PACKAGES=(
 # Node may come from elsewhere than Debian, where its package would be in the way.
 command -v npm >/dev/null || TEST_PACKAGES+=(nodejs npm)
 # The heavy peers that `tests/run.sh --peers` compares with.
-PEER_PACKAGES=(gmsh libgmsh-dev r-base-core r-cran-gstat python3-scipy postgresql-15-postgis-3 libtet1.5-dev libbenchmark-dev)
+PEER_PACKAGES=(gmsh libgmsh-dev r-base-core r-cran-gstat python3-scipy postgresql-15-postgis-3 libtet1.5-dev libbenchmark-dev
+               debootstrap dpkg-dev)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then

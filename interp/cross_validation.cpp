@@ -2,16 +2,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/cross_validation.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "interp/error_study.hpp"
 #include "interp/folds.hpp"
-#include "interp/local_error.hpp"
+#include "interp/learned_errors.hpp"
+#include "interp/variogram_fit.hpp"
 
 namespace terratet {
 namespace {
+
+/// Boreholes judged together: variograms and errors of one are learnt from the other groups'.
+constexpr std::size_t groups_max = 20;
+
+/// Some of the sites.
+struct Some {
+    std::vector<Vec3> sites;
+    std::vector<double> values;
+    std::vector<std::int32_t> boreholes;
+};
 
 double estimate_from(const std::vector<SiteWeight>& terms, const std::vector<double>& measured, Kind kind) {
     if (terms.empty()) {
@@ -24,11 +38,7 @@ double estimate_from(const std::vector<SiteWeight>& terms, const std::vector<dou
         }
         return std::ranges::max_element(weight_of, {}, [](const auto& entry) { return entry.second; })->first;
     }
-    double sum = 0;
-    for (const auto& [site, weight] : terms) {
-        sum += weight * measured[site];
-    }
-    return sum;
+    return weighted_mean(terms, measured);
 }
 
 /// Ranks from 1, equal values sharing the mean of theirs.
@@ -84,43 +94,63 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
             boreholes.push_back(model.samples.borehole[s]);
         }
     }
-    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind);
-    const auto make = [&](std::span<const std::uint32_t> kept) {
-        std::vector<Vec3> some;
-        std::vector<std::int32_t> holes;
-        for (const std::uint32_t i : kept) {
-            some.push_back(sites[i]);
-            holes.push_back(boreholes[i]);
-        }
-        return make_estimator(out.estimator, std::move(some), &faults, std::move(holes));
-    };
+    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &faults);
     const auto folds = folds_of(model.samples, out.sample, options.max_folds, options.loose_folds);
+    const ErrorGroups groups(sites.size(), folds, groups_max);
+    const EstimatorSpec open = open_again(out.estimator, spec, sites, out.measured, boreholes, kind.kind);
+    const auto some = [&](std::span<const std::uint32_t> kept) {
+        Some part;
+        for (const std::uint32_t i : kept) {
+            part.sites.push_back(sites[i]);
+            part.values.push_back(out.measured[i]);
+            part.boreholes.push_back(boreholes[i]);
+        }
+        return part;
+    };
+    std::vector<EstimatorSpec> of_group(groups.boreholes.size(), out.estimator);
+    if (needs_values(open) && of_group.size() > 1) {
+        tbb::parallel_for(std::size_t{0}, of_group.size(), [&](std::size_t group) {
+            std::vector<std::uint32_t> kept;
+            for (std::uint32_t i = 0; i < sites.size(); ++i) {
+                if (groups.of_site[i] != group) {
+                    kept.push_back(i);
+                }
+            }
+            const Some part = some(kept);
+            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &faults,
+                                               samples_of_fold_fit);
+        });
+    }
+    const PartialEstimator make = [&](std::span<const std::uint32_t> kept, std::uint32_t fold) {
+        Some part = some(kept);
+        return make_estimator(of_group[fold % of_group.size()], std::move(part.sites), &faults,
+                              std::move(part.boreholes));
+    };
     out.folds = folds.size();
-    const bool has_variance = make(folds.front())->has_variance();
-    LocalError local_error(sites, out.measured);
-    std::vector<std::vector<SiteWeight>> terms(sites.size());
+    const bool has_variance = make(folds.front(), 0)->has_variance();
+    ErrorStudy study(sites, out.measured, groups, has_variance);
+    std::vector<Weights> left_out(has_variance ? 0 : sites.size());
     out.estimated.resize(sites.size());
     out.deviation.assign(sites.size(), missing);
+    out.half_width.assign(sites.size(), missing);
     for_each_left_out(sites, folds, make, [&](std::uint32_t i, const Weights& weights) {
         out.estimated[i] = estimate_from(weights.terms, out.measured, kind.kind);
         out.fallbacks += weights.fallback ? 1 : 0;
-        if (has_variance) {
-            out.deviation[i] = weights.terms.empty() ? missing : std::sqrt(weights.variance);
-        } else {
-            local_error.add(i, weights);
-            terms[i] = weights.terms;
+        study.add(i, out.estimated[i], weights);
+        if (!has_variance) {
+            left_out[i] = weights;
         }
     });
     if (kind.kind == Kind::categorical) {
-        out.deviation.assign(sites.size(), missing);
-    } else if (has_variance) {
-        out.deviation_source = DeviationSource::kriging;
-    } else {
-        out.deviation_source = DeviationSource::cross_validated;
-        local_error.pool(&faults);
-        for (std::size_t i = 0; i < sites.size(); ++i) {
-            out.deviation[i] = local_error.standard_deviation(sites[i], terms[i]);
-        }
+        return out;
+    }
+    out.deviation_source = has_variance ? DeviationSource::kriging : DeviationSource::cross_validated;
+    study.judge(&faults, left_out);
+    out.calibration = study.calibration();
+    const auto stated = study.stated();
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        out.deviation[i] = stated[i].deviation;
+        out.half_width[i] = stated[i].half_width;
     }
     return out;
 }
@@ -136,6 +166,7 @@ CrossValidationScore score(const CrossValidation& v, const Property& property) {
     std::size_t stated = 0;
     std::size_t one = 0;
     std::size_t two = 0;
+    std::size_t in_half_width = 0;
     for (std::size_t i = 0; i < v.measured.size(); ++i) {
         if (std::isnan(v.estimated[i])) {
             ++s.without_value;
@@ -152,6 +183,7 @@ CrossValidationScore score(const CrossValidation& v, const Property& property) {
             ++stated;
             one += std::abs(error) <= v.deviation[i] ? 1 : 0;
             two += std::abs(error) <= 1.96 * v.deviation[i] ? 1 : 0;
+            in_half_width += std::abs(error) <= v.half_width[i] ? 1 : 0;
         }
     }
     s.count = measured.size();
@@ -170,6 +202,7 @@ CrossValidationScore score(const CrossValidation& v, const Property& property) {
     if (stated > 0) {
         s.within_one = static_cast<double>(one) / static_cast<double>(stated);
         s.within_two = static_cast<double>(two) / static_cast<double>(stated);
+        s.within_half_width = static_cast<double>(in_half_width) / static_cast<double>(stated);
     }
     return s;
 }

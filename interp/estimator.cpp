@@ -3,36 +3,29 @@
 #include "interp/estimator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "interp/estimator_catalogue.hpp"
 #include "interp/idw.hpp"
 #include "interp/kriging.hpp"
+#include "interp/kriging_drift.hpp"
 #include "interp/linear.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "interp/nearest.hpp"
+#include "interp/number_text.hpp"
 #include "interp/variogram_fit.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-std::optional<double> number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc() && end == text.data() + text.size();
-    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 bool valid(const EstimatorOption& option, const std::string& value) {
     if (!option.words.empty()) {
         return std::find(option.words.begin(), option.words.end(), value) != option.words.end();
     }
-    const auto parsed = number(value);
+    const auto parsed = number_in(value);
     return parsed && *parsed >= option.lowest && *parsed <= option.highest &&
            (!option.above || *parsed > option.lowest) && (!option.whole || *parsed == std::floor(*parsed));
 }
@@ -62,14 +55,14 @@ void add_option(EstimatorSpec& spec, const EstimatorMethod& method, const std::s
 
 double value_of(const EstimatorSpec& spec, const std::string& key, double otherwise) {
     const auto found = spec.options.find(key);
-    return found == spec.options.end() ? otherwise : number(found->second).value_or(otherwise);
+    return found == spec.options.end() ? otherwise : number_in(found->second).value_or(otherwise);
 }
 
 /// The number of an option as given, else its default.
 double value_of(const EstimatorSpec& spec, const std::string& key) {
     for (const auto& option : estimator_method(spec.name).options) {
         if (option.name == key) {
-            return value_of(spec, key, number(option.default_value).value_or(0));
+            return value_of(spec, key, number_in(option.default_value).value_or(0));
         }
     }
     return 0;
@@ -89,7 +82,7 @@ Anisotropy anisotropy_of(const EstimatorSpec& spec) {
 
 std::optional<double> given(const EstimatorSpec& spec, const std::string& key) {
     const auto found = spec.options.find(key);
-    return found == spec.options.end() ? std::nullopt : number(found->second);
+    return found == spec.options.end() ? std::nullopt : number_in(found->second);
 }
 
 VariogramFamily family_of(const EstimatorSpec& spec) {
@@ -107,11 +100,6 @@ KrigingOptions kriging_options(const EstimatorSpec& spec) {
              anisotropy_of(spec)},
             drift_of(spec),
             neighbourhood_of(spec)};
-}
-
-std::string shortest(double value) {
-    std::array<char, 32> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 }  // namespace
@@ -186,7 +174,7 @@ bool needs_values(const EstimatorSpec& spec) {
 }
 
 VariogramFit fit_variogram(const EstimatorSpec& spec, std::span<const Vec3> places, std::span<const double> values,
-                           std::span<const std::int32_t> boreholes, Kind kind) {
+                           std::span<const std::int32_t> boreholes, Kind kind, std::size_t most_samples) {
     VariogramRequest request;
     if (spec.name == "kriging") {
         request = {family_of(spec),      value_of(spec, "nu"),  given(spec, "nugget"), given(spec, "sill"),
@@ -196,6 +184,7 @@ VariogramFit fit_variogram(const EstimatorSpec& spec, std::span<const Vec3> plac
         request.robust = fit == spec.options.end() || fit->second == "robust";
     }
     request.categorical = kind == Kind::categorical;
+    request.most_samples = most_samples;
     std::vector<double> detrended;
     if (drift_of(spec) == Drift::linear && kind == Kind::continuous) {
         detrended = without_linear_trend(places, values);
@@ -205,12 +194,16 @@ VariogramFit fit_variogram(const EstimatorSpec& spec, std::span<const Vec3> plac
 }
 
 EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
-                               std::span<const std::int32_t> boreholes, Kind kind) {
+                               std::span<const std::int32_t> boreholes, Kind kind, const FaultProximity* faults,
+                               std::size_t most_samples) {
     if (!needs_values(spec)) {
         return spec;
     }
-    const Variogram fit = fit_variogram(spec, sites, values, boreholes, kind).variogram;
     EstimatorSpec complete = spec;
+    if (!spec.options.contains("drift") && kind == Kind::continuous) {
+        complete.options["drift"] = better_drift(spec, sites, values, boreholes, faults);
+    }
+    const Variogram fit = fit_variogram(complete, sites, values, boreholes, kind, most_samples).variogram;
     complete.options["nugget"] = shortest(fit.nugget);
     complete.options["sill"] = shortest(fit.sill);
     complete.options["range"] = shortest(fit.range);
@@ -228,6 +221,9 @@ std::string EstimatorPlan::to_string() const {
     for (const auto& [property, spec] : of_property) {
         text += "\n" + spec.to_string() + " of " + property;
     }
+    for (const auto& [property, calibration] : calibrations) {
+        text += "\n" + calibration.to_string() + " of " + property;
+    }
     return text;
 }
 
@@ -237,13 +233,17 @@ EstimatorPlan parse_estimator_plan(const std::string& text) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         const std::string line = text.substr(begin, end - begin);
         const std::size_t of = line.find(" of ");
+        begin = end + 1;
+        if (of != std::string::npos && line.starts_with("uncertainty:")) {
+            plan.calibrations[line.substr(of + 4)] = parse_calibration(line.substr(0, of));
+            continue;
+        }
         const EstimatorSpec spec = parse_estimator(line.substr(0, of));
         if (of == std::string::npos) {
             plan.general = spec;
         } else {
             plan.of_property[line.substr(of + 4)] = spec;
         }
-        begin = end + 1;
     }
     return plan;
 }

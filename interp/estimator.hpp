@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "interp/calibration.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"
@@ -39,10 +40,11 @@ struct EstimatorSpec {
 EstimatorSpec parse_estimator(const std::string& text);
 
 /// The estimators of a model's properties: one for all, but for those that have their own. Text: a specification, and
-/// on further lines `SPEC of PROPERTY`.
+/// on further lines `SPEC of PROPERTY`, and how far errors were found to go, as `CALIBRATION of PROPERTY`.
 struct EstimatorPlan {
     EstimatorSpec general;
     std::map<std::string, EstimatorSpec> of_property;
+    std::map<std::string, Calibration> calibrations{};  ///< of properties; missing: found when errors are asked for
 
     EstimatorPlan() = default;
     EstimatorPlan(EstimatorSpec spec) : general(std::move(spec)) {}  // NOLINT: one for all is the usual plan
@@ -90,8 +92,11 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector
 /// Does it leave a variogram's parameters to be fitted?
 bool needs_values(const EstimatorSpec& spec);
 
-/// With what it leaves open fitted to values in the property's scale (variogram_fit.hpp); as it is when nothing is.
+/// With what it leaves open fitted to values in the property's scale (variogram_fit.hpp, kriging_drift.hpp); as it is
+/// when no parameter of the variogram is open.
+/// \param faults  barriers; may be null
 EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
-                               std::span<const std::int32_t> boreholes, Kind kind = Kind::continuous);
+                               std::span<const std::int32_t> boreholes, Kind kind = Kind::continuous,
+                               const FaultProximity* faults = nullptr, std::size_t most_samples = 5000);
 
 }  // namespace terratet

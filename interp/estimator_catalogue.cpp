@@ -115,7 +115,8 @@ const std::vector<EstimatorMethod>& estimator_catalogue() {
              {.name = "drift",
               .default_value = "constant",
               .unit = "",
-              .help = "constant: ordinary kriging; linear: universal, about a plane",
+              .help = "constant: ordinary kriging; linear: universal, about a plane; not given: where the variogram is "
+                      "fitted, whichever estimates left-out boreholes better",
               .words = {"constant", "linear"}},
              {.name = "model",
               .default_value = "spherical",

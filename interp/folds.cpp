@@ -16,11 +16,10 @@ namespace {
 using Fold = std::vector<std::uint32_t>;
 
 /// Runs along the Morton curve: neighbours fall into the same block.
-std::vector<Fold> blocks(const Samples& samples, std::span<const std::uint32_t> which, const Fold& loose,
-                         std::size_t count) {
+std::vector<Fold> blocks(std::span<const Vec3> all, const Fold& loose, std::size_t count) {
     std::vector<Vec3> places;
     for (const std::uint32_t i : loose) {
-        places.push_back(samples.positions[which[i]]);
+        places.push_back(all[i]);
     }
     const auto order = morton_order(places);
     count = std::min(count, loose.size());
@@ -33,29 +32,50 @@ std::vector<Fold> blocks(const Samples& samples, std::span<const std::uint32_t> 
 
 }  // namespace
 
-std::vector<Fold> folds_of(const Samples& samples, std::span<const std::uint32_t> which, std::size_t max_folds,
+std::vector<Fold> folds_of(std::span<const Vec3> places, std::span<const std::int32_t> boreholes,
                            std::size_t loose_folds) {
     assert(loose_folds > 0);
     std::map<std::int32_t, Fold> holes;
     Fold loose;
-    for (std::uint32_t i = 0; i < which.size(); ++i) {
-        const std::int32_t hole = samples.borehole[which[i]];
-        (hole < 0 ? loose : holes[hole]).push_back(i);
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        (boreholes[i] < 0 ? loose : holes[boreholes[i]]).push_back(i);
     }
     std::vector<Fold> folds;
     for (auto& [hole, fold] : holes) {
         folds.push_back(std::move(fold));
     }
-    auto of_loose = blocks(samples, which, loose, loose_folds);
+    auto of_loose = blocks(places, loose, loose_folds);
     std::move(of_loose.begin(), of_loose.end(), std::back_inserter(folds));
-    if (max_folds > 0 && folds.size() > max_folds) {
-        for (std::size_t f = max_folds; f < folds.size(); ++f) {
-            auto& shared = folds[f % max_folds];
-            shared.insert(shared.end(), folds[f].begin(), folds[f].end());
-        }
-        folds.resize(max_folds);
-    }
     return folds;
+}
+
+std::vector<Fold> shared(std::vector<Fold> folds, std::size_t most) {
+    for (std::size_t f = most; f < folds.size(); ++f) {
+        auto& into = folds[f % most];
+        into.insert(into.end(), folds[f].begin(), folds[f].end());
+    }
+    folds.resize(std::min(folds.size(), most));
+    return folds;
+}
+
+std::vector<Fold> folds_of(const Samples& samples, std::span<const std::uint32_t> which, std::size_t max_folds,
+                           std::size_t loose_folds) {
+    std::vector<Vec3> places;
+    std::vector<std::int32_t> boreholes;
+    for (const std::uint32_t i : which) {
+        places.push_back(samples.positions[i]);
+        boreholes.push_back(samples.borehole[i]);
+    }
+    auto folds = folds_of(places, boreholes, loose_folds);
+    return max_folds > 0 ? shared(std::move(folds), max_folds) : folds;
+}
+
+double weighted_mean(std::span<const SiteWeight> terms, std::span<const double> values) {
+    double sum = 0;
+    for (const auto& [site, weight] : terms) {
+        sum += weight * values[site];
+    }
+    return sum;
 }
 
 void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
@@ -79,7 +99,7 @@ void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& fol
         }
         std::vector<Weights> weights(queries.size());
         if (!kept.empty()) {
-            make(kept)->weights(queries, weights);
+            make(kept, f)->weights(queries, weights);
         }
         for (auto& result : weights) {
             for (auto& term : result.terms) {

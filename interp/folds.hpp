@@ -23,8 +23,19 @@ namespace terratet {
 std::vector<std::vector<std::uint32_t>> folds_of(const Samples& samples, std::span<const std::uint32_t> which,
                                                  std::size_t max_folds = 0, std::size_t loose_folds = 20);
 
-/// Makes the estimator over some of the sites, named by their indices.
-using PartialEstimator = std::function<std::unique_ptr<Estimator>(std::span<const std::uint32_t> kept)>;
+/// The same of places, each with its borehole, −1 for a loose one; each borehole and block by itself.
+std::vector<std::vector<std::uint32_t>> folds_of(std::span<const Vec3> places, std::span<const std::int32_t> boreholes,
+                                                 std::size_t loose_folds = 20);
+
+/// Folds put together in turn, so that there are no more than `most`.
+std::vector<std::vector<std::uint32_t>> shared(std::vector<std::vector<std::uint32_t>> folds, std::size_t most);
+
+/// Makes the estimator over some of the sites, named by their indices: all but a fold's.
+using PartialEstimator =
+    std::function<std::unique_ptr<Estimator>(std::span<const std::uint32_t> kept, std::uint32_t fold)>;
+
+/// Σ wz.
+double weighted_mean(std::span<const SiteWeight> terms, std::span<const double> values);
 
 /// Calls `visit` with each site and its weights from the sites of all other folds, one at a time, fold by fold; terms
 /// name sites as `sites` does. No terms: the others give no value there. Costs one estimator per fold;

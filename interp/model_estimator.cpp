@@ -8,8 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "interp/folds.hpp"
-#include "interp/local_error.hpp"
+#include "interp/learned_errors.hpp"
 #include "interp/query_order.hpp"
 
 namespace terratet {
@@ -23,7 +22,7 @@ struct Column {
     std::size_t property;
     std::vector<double> measured;
     std::vector<double> scaled;
-    std::optional<LocalError> local_error;
+    std::optional<LearnedErrors> errors;
 };
 
 /// Properties measured at the same samples and estimated alike, and the estimator over those.
@@ -66,14 +65,14 @@ std::vector<std::uint32_t> samples_with(const Model& model, std::size_t p) {
 
 /// Fits what the plan leaves open, and notes it there.
 EstimatorSpec fitted_for(const Model& model, const Column& column, std::span<const std::uint32_t> samples,
-                         EstimatorPlan& plan) {
+                         const FaultProximity& faults, EstimatorPlan& plan) {
     const Property& property = model.properties[column.property];
     const EstimatorSpec& spec = plan.of(property.name);
     if (!needs_values(spec)) {
         return spec;
     }
     EstimatorSpec fitted = fitted_estimator(spec, picked(model.samples.positions, samples), column.scaled,
-                                            picked(model.samples.borehole, samples), property.kind);
+                                            picked(model.samples.borehole, samples), property.kind, &faults);
     plan.of_property[property.name] = fitted;
     return fitted;
 }
@@ -88,7 +87,7 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
             continue;
         }
         Column column = column_of(model, p, samples);
-        EstimatorSpec spec = fitted_for(model, column, samples, plan);
+        EstimatorSpec spec = fitted_for(model, column, samples, faults, plan);
         Group& group = groups[{samples, spec.to_string()}];
         group.columns.push_back(std::move(column));
         group.spec = std::move(spec);
@@ -104,29 +103,28 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
     return out;
 }
 
-/// Leaves boreholes out to learn how far estimates are off.
-void learn_errors(Group& group, const Model& model, const FaultProximity& faults, std::size_t max_folds) {
-    for (auto& column : group.columns) {
-        if (model.properties[column.property].kind == Kind::continuous) {
-            column.local_error.emplace(group.sites, column.scaled);
-        }
-    }
+/// Leaves boreholes out to learn how far estimates are off; what is found comes back in the plan.
+void learn_group(Group& group, const Model& model, const FaultProximity& faults, const EstimatorPlan& asked,
+                 std::size_t max_folds, EstimatorPlan& plan) {
     const auto boreholes = picked(model.samples.borehole, group.samples);
-    const auto make = [&](std::span<const std::uint32_t> kept) {
-        return make_estimator(group.spec, picked(group.sites, kept), &faults, picked(boreholes, kept));
-    };
-    for_each_left_out(group.sites, folds_of(model.samples, group.samples, max_folds), make,
-                      [&](std::uint32_t site, const Weights& weights) {
-                          for (auto& column : group.columns) {
-                              if (column.local_error) {
-                                  column.local_error->add(site, weights);
-                              }
-                          }
-                      });
-    for (auto& column : group.columns) {
-        if (column.local_error) {
-            column.local_error->pool(&faults);
+    ErrorTask task{group.spec, group.spec, model.samples, group.samples, group.sites, boreholes, faults, {}, max_folds};
+    for (const auto& column : group.columns) {
+        const Property& property = model.properties[column.property];
+        const auto known = asked.calibrations.find(property.name);
+        task.columns.push_back({column.scaled, property.kind == Kind::continuous,
+                                known == asked.calibrations.end() ? nullptr : &known->second});
+    }
+    if (group.columns.size() == 1 && task.columns.front().continuous && task.columns.front().known == nullptr) {
+        const Column& column = group.columns.front();
+        task.open = open_again(group.spec, asked.of(model.properties[column.property].name), group.sites, column.scaled,
+                               boreholes, Kind::continuous);
+    }
+    auto learned = learn_errors(task);
+    for (std::size_t c = 0; c < learned.size(); ++c) {
+        if (learned[c]) {
+            plan.calibrations[model.properties[group.columns[c].property].name] = learned[c]->calibration;
         }
+        group.columns[c].errors = std::move(learned[c]);
     }
 }
 
@@ -188,6 +186,7 @@ PropertyEstimates no_estimates(const Property& property, std::size_t count) {
     PropertyEstimates out;
     out.value.assign(count, missing);
     out.deviation.assign(count, missing);
+    out.half_width.assign(count, missing);
     out.extrapolation.assign(count, 1.0);
     out.samples.assign(count, 0);
     if (property.kind == Kind::categorical) {
@@ -295,10 +294,10 @@ struct ModelEstimator::Impl {
         out.samples[i] = static_cast<std::uint32_t>(weights.terms.size());
         if (property.kind == Kind::categorical) {
             set_probabilities(weights.terms, column, i, out);
-        } else if (!std::isnan(weights.variance)) {
-            out.deviation[i] = std::sqrt(weights.variance);
-        } else if (column.local_error) {
-            out.deviation[i] = column.local_error->standard_deviation(position, weights.terms);
+        } else if (column.errors) {
+            const auto [deviation, half_width] = column.errors->of(position, weights, to_scale(property, out.value[i]));
+            out.deviation[i] = deviation;
+            out.half_width[i] = half_width;
         }
     }
 };
@@ -309,13 +308,11 @@ ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults,
     impl_->groups = groups_of(model, faults, impl_->plan);
     if (impl_->groups.size() == 1) {
         impl_->plan = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
+        impl_->plan.calibrations = plan.calibrations;
     }
     if (options.uncertainty) {
         for (auto& group : impl_->groups) {
-            if (group.estimator->has_variance()) {
-                continue;
-            }
-            learn_errors(group, model, faults, options.error_folds);
+            learn_group(group, model, faults, plan, options.error_folds, impl_->plan);
         }
     }
 }
@@ -343,10 +340,10 @@ std::vector<PropertyEstimates> ModelEstimator::estimates(std::span<const ValueQu
     }
     for (const auto& group : impl_->groups) {
         for (const auto& column : group.columns) {
-            if (impl_->model.properties[column.property].kind == Kind::continuous) {
-                out[column.property].deviation_source = group.estimator->has_variance() ? DeviationSource::kriging
-                                                        : column.local_error ? DeviationSource::cross_validated
-                                                                             : DeviationSource::none;
+            if (column.errors) {
+                out[column.property].deviation_source =
+                    column.errors->local ? DeviationSource::cross_validated : DeviationSource::kriging;
+                out[column.property].calibration = column.errors->calibration;
             }
         }
     }

@@ -24,8 +24,8 @@ struct EstimatorCounters {
 /// Where a standard deviation comes from.
 enum class DeviationSource : std::uint8_t {
     none,             ///< a category (its entropy says it), or too few boreholes to leave one out
-    kriging,          ///< the square root of the kriging variance: exact for its variogram
-    cross_validated,  ///< the local error of leaving boreholes out (local_error.hpp): experience
+    kriging,          ///< the square root of the kriging variance, calibrated
+    cross_validated,  ///< the local error of leaving boreholes out (local_error.hpp), calibrated
 };
 
 /// "none", "kriging", "cross-validated".
@@ -33,11 +33,13 @@ const char* to_string(DeviationSource source);
 
 /// One property at each query, columns of equal length.
 struct PropertyEstimates {
-    std::vector<double> value;      ///< measured unit, or a class's index; NaN: no value
-    std::vector<double> deviation;  ///< standard deviation in the property's scale (decades for log10); NaN: unknown
+    std::vector<double> value;       ///< measured unit, or a class's index; NaN: no value
+    std::vector<double> deviation;   ///< standard deviation in the property's scale (decades for log10); NaN: unknown
+    std::vector<double> half_width;  ///< of the interval about the value that holds 95 %, in the property's scale
     std::vector<double> extrapolation;   ///< 0…1; 1 where there is no value
     std::vector<std::uint32_t> samples;  ///< how many samples have a weight; 0: no value
     DeviationSource deviation_source = DeviationSource::none;
+    Calibration calibration;  ///< how deviation and half-width follow from the method's own figure
 
     /// Categories only. Weights summed by class, negative sums cut off, scaled to sum to 1; NaN without a value.
     std::vector<std::vector<double>> probability;  ///< [class][query]
@@ -46,13 +48,14 @@ struct PropertyEstimates {
 
 struct ModelEstimatorOptions {
     bool uncertainty = false;      ///< prepares standard deviations: up to 20 further estimators
-    std::size_t error_folds = 20;  ///< boreholes share so many folds, for methods without a variance of their own
+    std::size_t error_folds = 20;  ///< boreholes share so many folds
 };
 
 class ModelEstimator {
   public:
     /// Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive this.
-    /// What `plan` leaves open is fitted to each property's samples (plan() tells).
+    /// What `plan` leaves open is fitted to each property's samples, and with options.uncertainty the calibrations that
+    /// it lacks are found (plan() tells).
     ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
                    std::shared_ptr<EstimatorCounters> counters = {}, const ModelEstimatorOptions& options = {});
     ~ModelEstimator();

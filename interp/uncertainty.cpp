@@ -26,7 +26,9 @@ std::vector<Derived> derived_from(const Property& property, PropertyEstimates& e
             add("_p_" + property.classes[k], "", std::move(estimates.probability[k]));
         }
     } else {
-        add("_sd", property.scale == Scale::log10 ? "decade" : property.unit, std::move(estimates.deviation));
+        const std::string unit = property.scale == Scale::log10 ? "decade" : property.unit;
+        add("_sd", unit, std::move(estimates.deviation));
+        add("_ci95", unit, std::move(estimates.half_width));
     }
     add("_extrapolation", "", std::move(estimates.extrapolation));
     add("_samples", "", {estimates.samples.begin(), estimates.samples.end()});

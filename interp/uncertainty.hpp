@@ -11,6 +11,7 @@ namespace terratet {
 
 /// Appends to the model, for each property with samples, properties that no sample has, estimated at the vertices:
 ///   NAME_sd             standard deviation, in the property's unit, or in decades for the log10 scale
+///   NAME_ci95           half-width of the interval about the value that holds 95 %, in the same
 ///   NAME_extrapolation  0…1
 ///   NAME_samples        how many samples have a weight
 /// and for a category instead of the first NAME_entropy (bits) and a NAME_p_CLASS for each class. Those that are there

@@ -194,6 +194,7 @@ VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double>
     VariogramOptions options;
     options.robust = request.robust && !request.categorical;
     options.categorical = request.categorical;
+    options.most_samples = request.most_samples;
     const auto lags = [&](PairKind kind, bool horizontal, double reach, double least_width) {
         options.pairs = kind;
         options.horizontal = horizontal;

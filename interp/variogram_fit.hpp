@@ -26,6 +26,7 @@ struct VariogramRequest {
     Anisotropy anisotropy{};         ///< its angles and ratio2; with any of them ratio3 is not fitted: 1 unless given
     bool categorical = false;
     bool robust = true;  ///< grades have outliers that swamp the classical variogram; of no effect for categories
+    std::size_t most_samples = 5000;  ///< beyond, pairs of every second, third …; along holes at most 1000 of each
 };
 
 struct VariogramFit {
@@ -44,7 +45,11 @@ VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double>
 /// The same for what a kriging specification leaves open, about a plane where its drift is linear; any other method's:
 /// a spherical model. Values of kind categorical are classes.
 VariogramFit fit_variogram(const struct EstimatorSpec& spec, std::span<const Vec3> places,
-                           std::span<const double> values, std::span<const std::int32_t> boreholes, Kind kind);
+                           std::span<const double> values, std::span<const std::int32_t> boreholes, Kind kind,
+                           std::size_t most_samples = 5000);
+
+/// Of the many fits where boreholes are left out.
+constexpr std::size_t samples_of_fold_fit = 2000;
 
 /// Weighted least squares with weights pairs/distance² (gstat's default): the best of all ranges, and for each of them
 /// the best nugget and sill not below 0. \pre lags are not empty

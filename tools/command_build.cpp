@@ -17,7 +17,8 @@ class Build final : public Command {
                          {{{"o", "output"}, "MODEL.gpkg", "the model: a GeoPackage, or PG:… for PostGIS", &output_},
                           {{"uncertainty"},
                            "",
-                           "keep each property's standard deviation, extrapolation and number of samples with the "
+                           "keep each property's standard deviation, 95 % half-width, extrapolation and number of "
+                           "samples with the "
                            "vertices; of a category the classes' probabilities and entropy",
                            &build_.exporting.uncertainty}}}});
         append(syntax, run_options(build_.run));

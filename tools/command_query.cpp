@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "interp/model_estimator.hpp"
@@ -32,7 +33,7 @@ class Query final : public Command {
                 {{"Options",
                   {{{"estimator"}, "SPEC", "instead of the model's own", &estimator_},
                    {{"probabilities"}, "", "of a category also each class's probability", &probabilities_},
-                   {{"no-sd"}, "", "leave standard deviations out: empty, and faster", &no_deviation_},
+                   {{"no-sd"}, "", "leave standard deviations and half-widths out: empty, and faster", &no_deviation_},
                    {{"s_srs", "source-crs"}, "CRS", "of the points, if they carry none; the model's by default", &crs_},
                    {{"columns"}, "MEANING=COLUMN", "a column not found by its name: x, y, z", &columns_},
                    {{"threads"}, "N", "as many as there are cores by default", &threads_},
@@ -90,6 +91,7 @@ class Query final : public Command {
             const Property& property = model.properties[p];
             add(property.name);
             add(property.name + "_sd");
+            add(property.name + "_ci95");
             add(property.name + "_extrapolation");
             if (property.kind == Kind::categorical) {
                 add(property.name + "_entropy");
@@ -142,6 +144,7 @@ class Query final : public Command {
         text += ',';
         append_csv_value(text, property, i == none ? missing : all.value[i]);
         number(all.deviation);
+        number(all.half_width);
         number(all.extrapolation);
         if (property.kind == Kind::categorical) {
             number(all.entropy);
@@ -170,8 +173,13 @@ class Query final : public Command {
         for (const std::size_t p : asked_) {
             const Property& property = model.properties[p];
             if (kinds[p].deviation_source != DeviationSource::none) {
-                spdlog::info("{}_sd: {}{}", property.name, to_string(kinds[p].deviation_source),
-                             property.scale == Scale::log10 ? ", in decades" : "");
+                const Calibration& c = kinds[p].calibration;
+                spdlog::info("{}_sd: {}{}{}", property.name, to_string(kinds[p].deviation_source),
+                             property.scale == Scale::log10 ? ", in decades" : "",
+                             c.samples == 0
+                                 ? std::string(", not calibrated: no borehole could be left out")
+                                 : fmt::format(", calibrated on {} left-out samples of {} boreholes{}", c.samples,
+                                               c.boreholes, c.boreholes < 20 ? ", few: wide rather than tight" : ""));
             }
         }
     }
@@ -197,8 +205,9 @@ CommandEntry query_command() {
             "values at places",
             "MODEL.gpkg value POINTS",
             "Estimates each property from the model's samples at the places of a table with x, y, z, or - for standard "
-            "input. CSV on standard output: a row each in the same order, the table's columns, then NAME, NAME_sd and "
-            "NAME_extrapolation of each property, empty where there is no value: also above the ground and outside the "
+            "input. CSV on standard output: a row each in the same order, the table's columns, then NAME, NAME_sd, "
+            "NAME_ci95 (half-width of the 95 % interval) and NAME_extrapolation of each property, empty where there is "
+            "no value: also above the ground and outside the "
             "domain.",
             {"terratet query site.gpkg value places.csv > values.csv",
              "printf 'x,y,z\\n525500,6792000,-200\\n' | terratet query site.gpkg value -"},

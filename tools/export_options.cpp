@@ -72,7 +72,8 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
                   &a.local_origin},
                  {{"uncertainty"},
                   "",
-                  "with each property's standard deviation, extrapolation and number of samples; of a category "
+                  "with each property's standard deviation, 95 % half-width, extrapolation and number of samples; of a "
+                  "category "
                   "the classes' probabilities and entropy",
                   &a.uncertainty},
                  {{"color"}, "PROPERTY", "glTF: what to colour by; the first by default", &a.color},

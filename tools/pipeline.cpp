@@ -86,6 +86,7 @@ void describe_uncertainty(Model& model) {
     const FaultProximity faults(model.faults);
     const ModelEstimator estimator(model, faults, parse_estimator_plan(model.estimator), {}, {.uncertainty = true});
     add_uncertainty(model, estimator);
+    model.estimator = estimator.plan().to_string();  // with the factors found, so that they stay
 }
 
 std::uint64_t unmet_cells(const RefineReport& report) {

@@ -35,8 +35,8 @@ void check_before_reading(const SiteArguments& site, const ModelArguments& model
 Model read_and_build(const SiteArguments& site, const ModelArguments& model, const RunArguments& run,
                      const Progress& progress, BuildRecord& record);
 
-/// Adds what the model's own estimator knows about its values (interp/uncertainty.hpp). Throws InputError when the
-/// model names an estimator that this version does not have.
+/// Adds what the model's own estimator knows about its values (interp/uncertainty.hpp), and to the estimator's record
+/// how far its errors go. Throws InputError when the model names an estimator that this version does not have.
 void describe_uncertainty(Model& model);
 
 /// Bad cells that no exemption covers: what --strict turns into exit code 4.

@@ -11,6 +11,7 @@
 #include "tess/error.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/quality.hpp"
+#include "tools/calibration_json.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
@@ -162,6 +163,15 @@ Json regions_json(const RunRecord& record) {
     return list;
 }
 
+/// By property, of those whose errors were learnt.
+Json uncertainty_json(const Model& model) {
+    Json uncertainty = Json::object();
+    for (const auto& [property, calibration] : parse_estimator_plan(model.estimator).calibrations) {
+        uncertainty[property] = calibration_json(calibration);
+    }
+    return uncertainty;
+}
+
 Json fidelity_json(const RunRecord& record) {
     Json fidelity = Json::object();
     const auto& all = record.build->report.fidelity;
@@ -241,7 +251,8 @@ std::string report_text(const RunRecord& record) {
         report["estimator"] = {{"name", build.estimator.name},
                                {"options", options},
                                {"fitted", record.model->estimator},
-                               {"fallbacks", build.fallbacks}};
+                               {"fallbacks", build.fallbacks},
+                               {"uncertainty", uncertainty_json(*record.model)}};
     }
     report["outputs"] = Json::array();
     for (const auto& output : record.written.outputs) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/calibration_json.hpp"
 #include "tools/text.hpp"
 
 namespace terratet::tools {
@@ -162,14 +163,20 @@ std::vector<PropertyValidation> validate_all(const Model& model, const FaultProx
         }
         PropertyValidation one;
         one.property = p;
-        const auto kriging = std::ranges::find(specs, "kriging", &EstimatorSpec::name);
-        one.variogram = fit_variogram(kriging == specs.end() ? EstimatorSpec{} : *kriging, places, values, boreholes,
-                                      property.kind);
         for (std::size_t e = 0; e < specs.size(); ++e) {
             const double done = static_cast<double>(p * specs.size() + e);
             report_progress(progress, "validate", done / static_cast<double>(model.properties.size() * specs.size()));
             one.estimators.push_back(cross_validate(model, faults, p, specs[e], options));
         }
+        EstimatorSpec shown;
+        if (const auto kriging = std::ranges::find(specs, "kriging", &EstimatorSpec::name); kriging != specs.end()) {
+            const auto& fitted = one.estimators[static_cast<std::size_t>(kriging - specs.begin())].estimator.options;
+            shown = *kriging;
+            if (const auto drift = fitted.find("drift"); drift != fitted.end()) {
+                shown.options["drift"] = one.drift = drift->second;
+            }
+        }
+        one.variogram = fit_variogram(shown, places, values, boreholes, property.kind);
         all.push_back(std::move(one));
     }
     return all;
@@ -183,19 +190,25 @@ std::string validation_text(const Model& model, const std::vector<PropertyValida
         out += fmt::format("{}, {} samples left out in {} groups\n", titled(property),
                            grouped(one.estimators.front().sample.size()), one.estimators.front().folds);
         out += classes ? fmt::format("  {:<44}{:>9}{:>10}\n", "estimator", "right %", "no value")
-                       : fmt::format("  {:<38}{:>9}{:>9}{:>10}{:>7}{:>7}{:>7}{:>9}\n", "estimator", "RMSE", "MAE",
-                                     "bias", "rank", "1sd %", "2sd %", "no value");
+                       : fmt::format("  {:<34}{:>9}{:>9}{:>10}{:>7}{:>9}{:>9}{:>9}\n", "estimator", "RMSE", "MAE",
+                                     "bias", "rank", "in sd %", "in 95 %", "no value");
         for (const auto& v : one.estimators) {
             const auto s = score(v, property);
             const std::string name = v.asked.as_given();
             out += classes ? fmt::format("  {:<44}{:>9}{:>10}\n", name, percent(s.accuracy), s.without_value)
-                           : fmt::format("  {:<38}{:>9}{:>9}{:>10}{:>7}{:>7}{:>7}{:>9}\n", name, cell(s.rmse),
+                           : fmt::format("  {:<34}{:>9}{:>9}{:>10}{:>7}{:>9}{:>9}{:>9}\n", name, cell(s.rmse),
                                          cell(s.mae), cell(s.bias, 3), cell(s.rank_correlation, 3),
-                                         percent(s.within_one), percent(s.within_two), s.without_value);
+                                         percent(s.within_one), percent(s.within_half_width), s.without_value);
+        }
+        if (!classes) {
+            out +=
+                "  in sd %: left-out truths within the stated standard deviation (68 or a little more is right); in "
+                "95 %: within\n  the stated half-width, NAME_ci95 (95 is right). Both are stated without having seen "
+                "the borehole.\n";
         }
         if (!one.variogram.all.empty()) {
-            out += "  Variogram, " + variogram_line(one.variogram.variogram, one.variogram.apart) + "\n" +
-                   lag_table(one.variogram);
+            out += std::string("  Variogram") + (one.drift == "linear" ? " about a plane, " : ", ") +
+                   variogram_line(one.variogram.variogram, one.variogram.apart) + "\n" + lag_table(one.variogram);
         }
         out += "\n";
     }
@@ -219,6 +232,8 @@ Json validation_json(const Model& model, const std::vector<PropertyValidation>& 
                                   {"rank_correlation", number(s.rank_correlation)},
                                   {"within_1sd", number(s.within_one)},
                                   {"within_1.96sd", number(s.within_two)},
+                                  {"within_half_width", number(s.within_half_width)},
+                                  {"calibration", calibration_json(v.calibration)},
                                   {"deviation", to_string(v.deviation_source)},
                                   {"accuracy", number(s.accuracy)},
                                   {"folds", v.folds},

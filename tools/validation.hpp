@@ -19,6 +19,7 @@ namespace terratet::tools {
 struct PropertyValidation {
     std::size_t property = 0;
     VariogramFit variogram;
+    std::string drift{};  ///< that it is fitted about: linear, constant; empty: no kriging was asked for
     std::vector<CrossValidation> estimators;  ///< in the order they were asked for
 };
 

@@ -66,6 +66,7 @@ TEST_CASE("Scores are those of their definitions") {
     v.measured = {1, 2, 3, 4, 5};
     v.estimated = {2, 1, 3, missing, 9};
     v.deviation = {1, 0.6, 0.1, 1, 2.5};
+    v.half_width = {3, 0.9, 1, 1, 4};
     const Property grade{"g", "", Scale::linear, Kind::continuous, {}};
     const auto s = score(v, grade);
     CHECK(s.count == 4);
@@ -76,6 +77,7 @@ TEST_CASE("Scores are those of their definitions") {
     CHECK(s.rank_correlation == Approx(0.8));  // 1 − 6·Σd²/(n(n² − 1)) with d = 1, −1, 0, 0
     CHECK(s.within_one == Approx(0.5));
     CHECK(s.within_two == Approx(1.0));
+    CHECK(s.within_half_width == Approx(0.75));
     v.estimated = {7, 7, 7, 7, 7};
     CHECK(std::isnan(score(v, grade).rank_correlation));
     const Property rock{"r", "", Scale::linear, Kind::categorical, {"a", "b"}};
@@ -96,6 +98,36 @@ TEST_CASE("Kriging's stated uncertainty covers what it should where its model is
     const auto rock = cross_validate(model, no_faults(), 1, parse_estimator("kriging"));
     CHECK(score(rock, model.properties[1]).accuracy > 0.9);
     CHECK(rock.deviation_source == DeviationSource::none);
+}
+
+TEST_CASE("Variograms are fitted without the holes left out: their values do not move their own estimates") {
+    const Model model = wells_model();
+    Model poisoned = model;
+    for (std::size_t i = 100; i < 120; ++i) {  // all of hole 5
+        poisoned.samples.values[0][i] += i % 2 == 0 ? 40 : -40;
+    }
+    const auto spec = parse_estimator("kriging:drift=constant:fit=classical");
+    const auto before = cross_validate(model, no_faults(), 0, spec);
+    const auto after = cross_validate(poisoned, no_faults(), 0, spec);
+    CHECK(before.estimator.to_string() != after.estimator.to_string());  // the poison does reach a fit to all
+    const auto hole = [](const CrossValidation& v) {
+        return std::vector<double>(v.estimated.begin() + 100, v.estimated.begin() + 120);
+    };
+    CHECK(same_bits(hole(before), hole(after)));
+    CHECK_FALSE(same_bits(before.estimated, after.estimated));
+}
+
+TEST_CASE("A model's factors are those of its cross-validation, whose fits do not see the holes left out") {
+    Model model = wells_model();
+    for (std::size_t i = 240; i < model.samples.size(); ++i) {  // 12 holes: each is a fold of both
+        model.samples.values[0][i] = missing;
+    }
+    for (const std::string spec : {"kriging", "idw", "natural"}) {
+        const auto v = cross_validate(model, no_faults(), 0, parse_estimator(spec));
+        const ModelEstimator estimator(model, no_faults(), parse_estimator(spec), {}, {.uncertainty = true});
+        INFO(spec);
+        CHECK(estimator.plan().calibrations.at("grade").to_string() == v.calibration.to_string());
+    }
 }
 
 TEST_CASE("R6: cross-validation has the same bits at any thread count") {

@@ -219,9 +219,11 @@ TEST_CASE("Uncertainty becomes properties of the vertices, once however often it
                                           "rock",
                                           "nothing",
                                           "grade_sd",
+                                          "grade_ci95",
                                           "grade_extrapolation",
                                           "grade_samples",
                                           "K_sd",
+                                          "K_ci95",
                                           "K_extrapolation",
                                           "K_samples",
                                           "rock_entropy",
@@ -231,9 +233,11 @@ TEST_CASE("Uncertainty becomes properties of the vertices, once however often it
                                           "rock_extrapolation",
                                           "rock_samples"};
     CHECK(names == wanted);
-    CHECK(model.properties[7].unit == "decade");
+    CHECK(model.properties[8].unit == "decade");
+    CHECK(model.properties[9].unit == "decade");
     CHECK(same_bits(model.vertex_values.values[4], estimates[0].deviation));
-    CHECK(same_bits(model.vertex_values.values[12], estimates[2].probability[1]));
+    CHECK(same_bits(model.vertex_values.values[5], estimates[0].half_width));
+    CHECK(same_bits(model.vertex_values.values[14], estimates[2].probability[1]));
     CHECK(model.samples.values.size() == names.size());
 
     const ModelEstimator again(model, no_faults(), parse_estimator("idw"), {}, {.uncertainty = true});

@@ -9,6 +9,7 @@
 #include "estimation.hpp"
 #include "interp/estimator.hpp"
 #include "interp/variogram_fit.hpp"
+#include "random_field.hpp"
 #include "sites.hpp"
 
 using namespace terratet;
@@ -26,38 +27,6 @@ std::vector<std::vector<double>> reference(const std::string& name) {
     }
     return rows;
 }
-
-/// A random field with the given covariance, by many cosine waves (spectral method): exponential across, with ranges
-/// shorter along z.
-class Field {
-  public:
-    Field(double range, double vertical, std::uint64_t seed) {
-        Random random(seed);
-        const auto gauss = [&] {
-            return std::sqrt(-2 * std::log(1 - random())) * std::cos(2 * std::numbers::pi * random());
-        };
-        for (auto& wave : waves_) {
-            // The spectrum of exp(-h/a) in three dimensions is a Cauchy density: normal over the root of a chi square.
-            const double scale = 1 / std::abs(gauss());
-            wave.k = Vec3{gauss() / range, gauss() / range, gauss() / vertical} * scale;
-            wave.phase = 2 * std::numbers::pi * random();
-        }
-    }
-    double operator()(const Vec3& p) const {
-        double sum = 0;
-        for (const auto& wave : waves_) {
-            sum += std::cos(dot(wave.k, p) + wave.phase);
-        }
-        return sum * std::sqrt(2.0 / double(waves_.size()));
-    }
-
-  private:
-    struct Wave {
-        Vec3 k;
-        double phase;
-    };
-    std::array<Wave, 1000> waves_;
-};
 
 }  // namespace
 
@@ -161,7 +130,7 @@ TEST_CASE("A model is found again in its own variogram, for every family") {
 
 TEST_CASE("Ranges along holes and across them are fitted apart") {
     // 100 wells 100 m apart, a sample every 4 m; ranges of 150 m across and 15 m along.
-    const Field field(150, 15, 73);
+    const RandomField field(150, 15, 73);
     std::vector<Vec3> places;
     std::vector<std::int32_t> holes;
     std::vector<double> values;

@@ -3,7 +3,9 @@
 """terratet query MODEL value POINTS: a row for a row, in order, with the model's own estimator."""
 import csv
 import io
+import json
 import math
+import sqlite3
 import subprocess
 import unittest
 
@@ -28,18 +30,19 @@ class Query(Case):
     def test_on_samples_their_values_come_back_with_no_deviation(self):
         samples = self.samples()
         rows = self.ask("x,y,z\n" + "".join(f"{s['x']},{s['y']},{s['z']}\n" for s in samples))
-        self.assertEqual(rows[0], ["x", "y", "z", "K", "K_sd", "K_extrapolation"])
-        self.assertEqual([row[3:] for row in rows[1:]], [[s["K"], "0", "0"] for s in samples])
+        self.assertEqual(rows[0], ["x", "y", "z", "K", "K_sd", "K_ci95", "K_extrapolation"])
+        self.assertEqual([row[3:] for row in rows[1:]], [[s["K"], "0", "0", "0"] for s in samples])
 
     def test_rows_stay_in_order_with_all_their_columns_and_bad_ones_are_empty(self):
         text = 'name,Easting,Northing,RL,"a, b"\n"x, ""y""",525500,6792000,-200,1\nbad,,6792000,-200,\nlast,525510,6792010,-210,ü\n'
         rows = self.ask(text)
-        self.assertEqual(rows[0], ["name", "Easting", "Northing", "RL", "a, b", "K", "K_sd", "K_extrapolation"])
+        self.assertEqual(rows[0], ["name", "Easting", "Northing", "RL", "a, b", "K", "K_sd", "K_ci95", "K_extrapolation"])
         self.assertEqual([row[:5] for row in rows[1:]], list(csv.reader(io.StringIO(text)))[1:])
-        self.assertEqual(rows[2][5:], ["", "", ""])
+        self.assertEqual(rows[2][5:], ["", "", "", ""])
         for row in (rows[1], rows[3]):
             self.assertGreater(float(row[5]), 0)
             self.assertGreater(float(row[6]), 0)
+            self.assertGreater(float(row[7]), float(row[6]))
         piped = subprocess.run([PROGRAM, "query", "m.gpkg", "value", "-"], input=text, cwd=self.folder, text=True,
                                capture_output=True, check=True)
         self.assertEqual(list(csv.reader(io.StringIO(piped.stdout))), rows)
@@ -62,9 +65,28 @@ class Query(Case):
         text = "x,y,z\n525500,6792000,-200\n"
         own, other, plain = (self.ask(text, *a)[1] for a in ([], ["--estimator", "nearest"], ["--no-sd"]))
         self.assertNotEqual(own[3], other[3])
-        self.assertEqual(plain, [*own[:4], "", own[5]])
+        self.assertEqual(plain, [*own[:4], "", "", own[6]])
         for threads in ("1", "3"):
             self.assertEqual(self.ask(text, "--threads", threads)[1], own)
+
+    def test_factors_found_by_a_build_are_stored_and_used_and_otherwise_found_there_and_then(self):
+        text = "x,y,z\n525500,6792000,-200\n525450,6791950,-400\n"
+        self.succeed("build", *twin_inputs(), "--uncertainty", "--report", "r.json", "-o", "u.gpkg")
+        report = json.loads((self.folder / "r.json").read_text())
+        known = report["estimator"]["uncertainty"]["K"]
+        self.assertEqual((known["boreholes"], known["samples"]), (4, 1292))
+        self.assertIn("uncertainty:sd=%r:half_width=%r:" % (known["factor_sd"], known["factor_95"]),
+                      json.loads(self.succeed("info", "--json", "u.gpkg").stdout)["estimator"])
+        points = self.write("p.csv", text)
+        asked = lambda model, *a: list(csv.reader(io.StringIO(self.succeed("query", model, "value", points, *a).stdout)))
+        self.assertEqual(asked("u.gpkg"), asked("m.gpkg"))
+        # Its own estimator, named: found anew, and the same; another's are others.
+        name = report["estimator"]["name"]
+        self.assertEqual(asked("u.gpkg", "--estimator", name), asked("m.gpkg"))
+        self.assertNotEqual(asked("u.gpkg", "--estimator", "nearest")[1][4:6], asked("m.gpkg")[1][4:6])
+        with sqlite3.connect(self.folder / "u.gpkg") as base:
+            [[text]] = base.execute("SELECT value FROM terratet_meta WHERE key = 'estimator'")
+        self.assertIn(" of K", text)
 
     def test_what_cannot_be_done_is_said(self):
         points = self.write("p.csv", "a,b\n1,2\n")

@@ -25,8 +25,11 @@ class Validate(Case):
             self.assertEqual(e["count"] + e["without_value"], 1292)
             self.assertGreater(e["rmse"], e["mae"])
             self.assertGreaterEqual(e["within_1.96sd"], e["within_1sd"])
+            self.assertEqual((e["calibration"]["boreholes"], e["calibration"]["samples"]), (4, 1292))
             row = [line for line in result.stdout.splitlines() if line.split()[:1] == [e["estimator"]]]
             self.assertEqual(row[0].split()[1], "%.4g" % e["rmse"])
+            self.assertEqual(row[0].split()[5:7], ["%.1f" % (100 * e[k]) for k in ("within_1sd", "within_half_width")])
+        self.assertIn("in 95 %: within", result.stdout)
         self.assertEqual([e["deviation"] for e in k["estimators"]], ["cross-validated", "kriging", "cross-validated"])
         variogram = k["variogram"]
         self.assertIn("ratio3=%r" % variogram["ratio3"], k["estimators"][1]["specification"])

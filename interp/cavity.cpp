@@ -9,7 +9,10 @@
 namespace terratet {
 namespace {
 
-constexpr std::size_t walk_limit = 3000;  // cells; beyond, groups are faster
+// Beyond so many cells groups are faster, but only where most cells lie away from the boundary: each facet needs a
+// cell looked at either way.
+constexpr std::size_t walk_limit = 3000;
+constexpr std::size_t cells_per_facet = 4;
 
 /// A hint only. Zones are bound by memory: it makes queries a tenth faster.
 void prefetch([[maybe_unused]] const CompactDelaunay::Cell& cell) {
@@ -21,16 +24,19 @@ void prefetch([[maybe_unused]] const CompactDelaunay::Cell& cell) {
 }  // namespace
 
 void Cavity::find(const CompactDelaunay& mesh, const Vec3& q, const CompactDelaunay::Location& at) {
-    home = at.cell;
-    if (!grow(mesh, q, home)) {
-        find_by_groups(mesh, q);
-    }
+    const auto find_from = [&](std::int32_t start) {
+        home = start;
+        if (!grow(mesh, q, start)) {
+            find_by_groups(mesh, q);
+        }
+    };
+    find_from(at.cell);
     if (!at.strictly_inside) {
         // Several cells contain q and the walk may end in any of them: start again from the first of the zone.
         const auto all = all_cells(mesh);
-        home = *std::min_element(all.begin(), all.end());
-        if (groups.empty() && home != cells.front()) {
-            grow(mesh, q, home);
+        const std::int32_t first = *std::min_element(all.begin(), all.end());
+        if (first != home) {
+            find_from(first);
         }
     }
     number_vertices(mesh, q);
@@ -65,7 +71,7 @@ bool Cavity::grow(const CompactDelaunay& mesh, const Vec3& q, std::int32_t start
             }
             add_facet(mesh, cells[i], k);
         }
-        if (cells.size() > walk_limit) {
+        if (cells.size() > walk_limit && cells.size() > cells_per_facet * facets.size()) {
             return false;
         }
     }

@@ -22,8 +22,8 @@ namespace terratet {
 
 class Cavity {
   public:
-    /// A zone of more than three thousand cells is found through the tessellation's SphereTree, which the first such
-    /// zone builds: then most of its cells are in groups.
+    /// A zone of more than three thousand cells, and of four times as many as facets, is found through the
+    /// tessellation's SphereTree, which the first such zone builds: then most of its cells are in groups.
     ///
     /// The order of cells and vertices depends on the place alone, not on where the walk came from. `home`
     /// contains q, or is the first of the zone where several cells contain q.

@@ -5,27 +5,38 @@
 #include <CGAL/Exact_rational.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "interp/circumsphere.hpp"
+#include "interp/sphere_tree.hpp"
 #include "interp/stolen_volumes.hpp"
+#include "interp/wide.hpp"
 
 namespace terratet {
 namespace {
 
 using Rational = CGAL::Exact_rational;
 
-#if defined(__SIZEOF_FLOAT128__)
-__extension__ using Wide = __float128;
-#else
-using Wide = long double;  // 113 bits where there is no __float128 (ARM, POWER)
-#endif
+/// Of fixed size: a sum of a thousand terms is as long as each.
+template <unsigned bits>
+using Precise =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
+                                  boost::multiprecision::et_off>;
 
-double rounded(const Rational& number) {
-    return CGAL::to_double(number);
+double rounded(long double number) {
+    return static_cast<double>(number);
 }
+#if defined(__SIZEOF_FLOAT128__)
 double rounded(Wide number) {
     return static_cast<double>(number);
+}
+#endif
+template <unsigned bits>
+double rounded(const Precise<bits>& number) {
+    return number.template convert_to<double>();
 }
 
 template <typename Number>
@@ -54,14 +65,19 @@ Vector<Number> split(const Vector<Number>& a, const Vector<Number>& b, const Vec
 }
 
 /// The cells' parts about the zone's vertices.
-template <typename Number, typename Point>
-void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, const Point& point, std::vector<Number>& volumes) {
+template <typename Number>
+void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, const std::vector<Vector<Number>>& points,
+               std::vector<Number>& volumes) {
     for (const std::int32_t id : cavity.all_cells(mesh)) {
         const auto& vertex = mesh.cells()[static_cast<std::size_t>(id)].vertex;
-        const std::array<Vector<Number>, 4> p = {point(vertex[0]), point(vertex[1]), point(vertex[2]),
-                                                 point(vertex[3])};
+        const auto point = [&](std::size_t k) { return points[cavity.number(vertex[k])]; };
+        const std::array<Vector<Number>, 4> p = {point(0), point(1), point(2), point(3)};
+        const std::size_t first =
+            nearest_to_others({cavity.points[cavity.number(vertex[0])], cavity.points[cavity.number(vertex[1])],
+                               cavity.points[cavity.number(vertex[2])], cavity.points[cavity.number(vertex[3])]});
+        const auto from_first = [&](int k) { return p[static_cast<std::size_t>(facet_corners[first][k])] - p[first]; };
         const Vector<Number> center =
-            p[0] + BoundaryFacet<Vector<Number>, Number>(p[1] - p[0], p[2] - p[0], p[3] - p[0]).center;
+            p[first] + BoundaryFacet<Vector<Number>, Number>(from_first(0), from_first(1), from_first(2)).center;
         std::array<Vector<Number>, 4> splits;
         for (std::size_t k = 0; k < 4; ++k) {
             const auto corner = [&](std::size_t i) { return p[static_cast<std::size_t>(facet_corners[k][i])]; };
@@ -74,20 +90,22 @@ void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, const Point& p
     }
 }
 
-/// What each of the cavity's vertices loses to the query.
+/// What each of the cavity's vertices loses to the query, from the sites alone.
 template <typename Number>
 std::vector<Number> stolen(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
                            NaturalNeighbourOptions::Weighting weighting) {
     const bool sibson = weighting == NaturalNeighbourOptions::Weighting::sibson;
     std::vector<Number> volumes(cavity.vertices.size(), Number(0));
-    const auto point = [&](std::int32_t v) { return relative<Number>(mesh.points()[static_cast<std::size_t>(v)], q); };
+    std::vector<Vector<Number>> points;
+    for (const std::int32_t v : cavity.vertices) {
+        points.push_back(relative<Number>(mesh.points()[static_cast<std::size_t>(v)], q));
+    }
     if (sibson) {
-        add_cells(mesh, cavity, point, volumes);
+        add_cells(mesh, cavity, points, volumes);
     }
     for (const auto& facet : cavity.facets) {
         const auto local = [&](std::size_t k) { return static_cast<std::size_t>(facet.vertex[k]); };
-        const auto corner = [&](std::size_t k) { return point(cavity.vertices[local(k)]); };
-        const Vector<Number> a = corner(0), b = corner(1), c = corner(2);
+        const Vector<Number>&a = points[local(0)], &b = points[local(1)], &c = points[local(2)];
         const BoundaryFacet<Vector<Number>, Number> boundary(a, b, c);
         const auto more = sibson ? boundary.sibson(split(a, b, c)) : boundary.laplace();
         for (std::size_t k = 0; k < 3; ++k) {
@@ -97,47 +115,99 @@ std::vector<Number> stolen(const CompactDelaunay& mesh, const Cavity& cavity, co
     return volumes;
 }
 
-/// Volumes are not negative, so rounding each before the sum costs no digits, where an exact sum would cost far more
-/// than all the rest: its denominator is the product of theirs.
+constexpr double long_tolerance = 1e-12;  // of weights below 0; of the identity, in radii of the home's sphere
+constexpr double tolerance = 1e-15;       // the same, in distances to the nearest site
+
+double distance_to_nearest(const Cavity& cavity) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : cavity.points) {
+        nearest = std::min(nearest, length(p));
+    }
+    return nearest;
+}
+
+/// \param weight_error, mean_error  how far below 0 a weight, how far from q the mean of the sites may be
+/// \returns false, and no shares, where the identity is broken
 template <typename Number>
-void set_shares(const std::vector<Number>& volumes, std::vector<double>& shares) {
-    shares.resize(volumes.size());
-    std::transform(volumes.begin(), volumes.end(), shares.begin(), [](const Number& v) { return rounded(v); });
-    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
-    for (double& share : shares) {
-        share /= total;
+bool shares_of(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, const std::vector<Number>& volumes,
+               double weight_error, double mean_error, std::vector<double>& shares) {
+    const Number total = std::accumulate(volumes.begin(), volumes.end(), Number(0));
+    Vector<Number> mean{Number(0), Number(0), Number(0)};
+    shares.clear();
+    for (std::size_t v = 0; v < volumes.size(); ++v) {
+        const Number share = volumes[v] / total;
+        if (!(share >= Number(-weight_error))) {
+            return false;
+        }
+        mean = mean + share * relative<Number>(mesh.points()[static_cast<std::size_t>(cavity.vertices[v])], q);
+        shares.push_back(std::max(rounded(share), 0.0));
+    }
+    return std::sqrt(rounded(dot(mean, mean))) <= mean_error;
+}
+
+std::size_t zone_size(const CompactDelaunay& mesh, const Cavity& cavity) {
+    std::size_t size = cavity.cells.size() + cavity.facets.size();
+    for (const std::uint32_t group : cavity.groups) {
+        size += mesh.sphere_tree().cells(group).size();
+    }
+    return size;
+}
+
+void barycentric_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, std::vector<double>& shares) {
+    const auto& vertex = mesh.cells()[static_cast<std::size_t>(cavity.home)].vertex;
+    std::array<Vec3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+        corners[k] = mesh.points()[static_cast<std::size_t>(vertex[k])];
+    }
+    const auto coordinates = exact_barycentric(corners, q);
+    shares.assign(cavity.vertices.size(), 0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+        shares[cavity.number(vertex[k])] = coordinates[k];
     }
 }
 
-constexpr double wide_tolerance = 1e-15;  // of Sibson's identity and of weights below 0
-
 }  // namespace
 
-void exact_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                  NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
-    set_shares(stolen<Rational>(mesh, cavity, q, weighting), shares);
+bool long_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
+                 NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+    const auto& home = mesh.cells()[static_cast<std::size_t>(cavity.home)];
+    const double radius = distance(home.center, mesh.points()[static_cast<std::size_t>(home.vertex[0])]);
+    return shares_of(mesh, cavity, q, stolen<long double>(mesh, cavity, q, weighting), long_tolerance,
+                     long_tolerance * radius, shares);
 }
 
 bool wide_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
                  NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
-    std::vector<Wide> volumes = stolen<Wide>(mesh, cavity, q, weighting);
-    const Wide total = std::accumulate(volumes.begin(), volumes.end(), Wide(0));
-    Vector<Wide> mean{0, 0, 0};
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t v = 0; v < volumes.size(); ++v) {
-        if (!(volumes[v] >= Wide(-wide_tolerance) * total)) {
-            return false;
-        }
-        const Vec3& site = mesh.points()[static_cast<std::size_t>(cavity.vertices[v])];
-        mean = mean + (volumes[v] / total) * relative<Wide>(site, q);
-        nearest = std::min(nearest, distance(site, q));
-        volumes[v] = std::max(volumes[v], Wide(0));
+    return shares_of(mesh, cavity, q, stolen<Wide>(mesh, cavity, q, weighting), tolerance,
+                     tolerance * distance_to_nearest(cavity), shares);
+}
+
+bool precise_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
+                    NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+    const double error = tolerance * distance_to_nearest(cavity);
+    return shares_of(mesh, cavity, q, stolen<Precise<512>>(mesh, cavity, q, weighting), tolerance, error, shares) ||
+           shares_of(mesh, cavity, q, stolen<Precise<4096>>(mesh, cavity, q, weighting), tolerance, error, shares);
+}
+
+SharesFrom fallback_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
+                           NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares,
+                           const FallbackLimits& limits) {
+    const std::size_t size = zone_size(mesh, cavity);
+    if (size <= limits.long_doubles && long_shares(mesh, cavity, q, weighting, shares)) {
+        return SharesFrom::long_doubles;
     }
-    if (!(rounded(dot(mean, mean)) <= wide_tolerance * wide_tolerance * nearest * nearest)) {
-        return false;
+    if (size <= limits.wide && wide_shares(mesh, cavity, q, weighting, shares)) {
+        return SharesFrom::wide;
     }
-    set_shares(volumes, shares);
-    return true;
+    if (size <= limits.precise && precise_shares(mesh, cavity, q, weighting, shares)) {
+        return SharesFrom::precise;
+    }
+    if (cavity.facets.size() <= limits.laplace &&
+        wide_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::laplace, shares)) {
+        return SharesFrom::laplace;
+    }
+    barycentric_shares(mesh, cavity, q, shares);
+    return SharesFrom::barycentric;
 }
 
 std::array<double, 4> exact_barycentric(const std::array<Vec3, 4>& corners, const Vec3& q) {

@@ -121,9 +121,7 @@ struct NaturalNeighbour::Impl {
         const CompactDelaunay& mesh = sites.tessellation();
         work.cavity.find(mesh, q, at);
         if (!shares_in_doubles(mesh, q, options.weighting, work)) {
-            if (!wide_shares(mesh, work.cavity, q, options.weighting, work.shares)) {
-                exact_shares(mesh, work.cavity, q, options.weighting, work.shares);
-            }
+            fallback_shares(mesh, work.cavity, q, options.weighting, work.shares);
             out.fallback = true;
         }
         sites.weigh(query, work.cavity.vertices, work.shares, out);

@@ -24,8 +24,9 @@
 /// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value.
 ///
 /// Accuracy: a result is accepted if |Σ wᵢpᵢ − q| ≤ 1e-9·R, R the radius of the sphere around the cell that contains
-/// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in floats of 113 bits, held to 1e-15, or where
-/// even they fail in rational numbers. Weights::fallback says so.
+/// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in floats of 113 to 4096 bits, held to 1e-15;
+/// where even they fail, or would take too long, Laplace's weights or barycentric coordinates stand in
+/// (exact_volumes.hpp). Weights::fallback says so.
 ///
 /// About 3 µs a query among uniform sites, 20 µs between 400 boreholes (docs/benchmarks.md); ~750 bytes a site. Smooth:
 /// some times that, and 32 bytes more for each pair of neighbours.

@@ -57,6 +57,17 @@ inline std::vector<Vec3> lattice_sites(int n) {
     return sites;
 }
 
+/// n² sites on a plane, `step` apart.
+inline std::vector<Vec3> square_sites(int n, double step) {
+    std::vector<Vec3> sites;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            sites.push_back({i * step, j * step, 0});
+        }
+    }
+    return sites;
+}
+
 /// All integer points at exactly one distance from the origin: one sphere, and nothing inside.
 inline std::vector<Vec3> cospherical_sites(int squared_radius) {
     std::vector<Vec3> sites;

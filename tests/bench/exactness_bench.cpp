@@ -90,7 +90,9 @@ void measure(const char* name, const std::vector<Vec3>& sites, std::size_t count
         if (i % every != 0) {
             continue;
         }
-        exact_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::sibson, exact);
+        if (!precise_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::sibson, exact)) {
+            std::abort();
+        }
         ++compared;
         double of_sites = 0;
         for (std::size_t v = 0; v < exact.size(); ++v) {

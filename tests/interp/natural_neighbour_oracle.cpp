@@ -163,9 +163,10 @@ SiteWeights fallback_weights(const std::vector<Vec3>& sites, const Vec3& q, Fall
     cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
     std::vector<double> shares;
     constexpr auto sibson = NaturalNeighbourOptions::Weighting::sibson;
-    if (which == Fallback::rational) {
-        exact_shares(mesh, cavity, q, sibson, shares);
-    } else if (!wide_shares(mesh, cavity, q, sibson, shares)) {
+    const auto way = which == Fallback::long_doubles ? long_shares
+                     : which == Fallback::wide       ? wide_shares
+                                                     : precise_shares;
+    if (!way(mesh, cavity, q, sibson, shares)) {
         return {};
     }
     SiteWeights weights;

@@ -37,8 +37,8 @@ class ExactVoronoi {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The library's fallbacks, which estimates hardly ever take. Of wide floats none where they give up.
-enum class Fallback { wide, rational };
+/// The library's fallbacks, which estimates hardly ever take. None where they give up.
+enum class Fallback { long_doubles, wide, precise };
 SiteWeights fallback_weights(const std::vector<Vec3>& sites, const Vec3& q, Fallback which);
 
 /// Over the sites of either; a site that is missing weighs 0.

@@ -9,7 +9,9 @@
 #include <cassert>
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
 #include <random>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -21,6 +23,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = 1 << 20;
+
+/// The outputs of this program, for abandon_outputs().
+struct Outputs {
+    std::mutex mutex;
+    std::set<std::string> temporaries;
+    std::vector<std::string> committed;
+};
+
+Outputs& outputs() {
+    static Outputs all;
+    return all;
+}
 
 std::string advice(int error) {
     switch (error) {
@@ -141,6 +155,7 @@ OutputFile::OutputFile(std::string path, bool overwrite)
     : path_(std::move(path)), target_(resolved(path_)), overwrite_(overwrite) {
     require_folder(path_, target_);
     require_replaceable(path_, target_, overwrite_);
+    const std::lock_guard lock(outputs().mutex);
     const int descriptor = create_exclusively(target_, temporary_);
     if (descriptor < 0) {
         fail("cannot write " + path_, errno);
@@ -152,6 +167,7 @@ OutputFile::OutputFile(std::string path, bool overwrite)
         unlink(temporary_.c_str());
         fail("cannot write " + path_, error);
     }
+    outputs().temporaries.insert(temporary_);
     std::setvbuf(file_, nullptr, _IOFBF, buffer_size);
 }
 
@@ -159,6 +175,8 @@ OutputFile::~OutputFile() {
     if (file_) {
         std::fclose(file_);
     }
+    const std::lock_guard lock(outputs().mutex);
+    outputs().temporaries.erase(temporary_);
     if (!committed_) {
         unlink(temporary_.c_str());
     }
@@ -196,6 +214,7 @@ std::uint64_t OutputFile::commit() {
     if (!synced) {
         fail("cannot write " + path_, error);
     }
+    const std::lock_guard lock(outputs().mutex);
     if (const int refused = move_into_place(temporary_, target_, overwrite_)) {
         if (refused == EEXIST) {
             throw Error(path_ + " exists now, though it did not before; give --overwrite to replace it");
@@ -203,8 +222,19 @@ std::uint64_t OutputFile::commit() {
         fail("cannot write " + path_, refused);
     }
     committed_ = true;
+    outputs().committed.push_back(path_);
     sync_folder(folder_of(target_));
     return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::vector<std::string> abandon_outputs() {
+    outputs().mutex.lock();  // for good
+    for (const std::string& temporary : outputs().temporaries) {
+        for (const char* companion : {"", "-journal", "-wal", "-shm"}) {  // of a GeoPackage
+            unlink((temporary + companion).c_str());
+        }
+    }
+    return outputs().committed;
 }
 
 void require_writable(const std::string& path, bool overwrite) {

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace terratet {
 
@@ -45,6 +46,10 @@ class OutputFile {
     bool overwrite_ = false;
     bool committed_ = false;
 };
+
+/// For a program that has to end at once: removes the temporary files of all outputs not committed, and returns the
+/// paths of those that were. From then on whoever begins or commits one waits for the end.
+std::vector<std::string> abandon_outputs();
 
 /// Refuses an existing output early, before hours of work; also a missing or read-only folder. Throws Error, naming
 /// --overwrite for an existing file.

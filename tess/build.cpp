@@ -11,6 +11,7 @@
 #include "tess/box_clip.hpp"
 #include "tess/error.hpp"
 #include "tess/fault_blocks.hpp"
+#include "tess/fault_preparation.hpp"
 
 namespace terratet {
 
@@ -308,16 +309,21 @@ void suggest_z_scale(const Model& model, BuildReport& report) {
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
     model.fault_options = options.faults;
     require_paired_bounds(model);
+    if (options.separate_faults) {
+        model.fault_options.spacing = separating_spacing(model.surfaces, model.domain.extent, model.frame,
+                                                         model.criteria.l_min, options.faults, progress);
+    }
+    const FaultOptions& faults = model.fault_options;
     const Surface* const domain = domain_surface(model);
     std::vector<Surface> surfaces = model.surfaces;
     if (domain != nullptr) {
         std::erase_if(surfaces, [](const Surface& surface) { return surface.kind == SurfaceKind::domain; });
         std::ranges::move(domain_walls(model.domain.outline, domain->name, domain->file, model.domain.extent,
-                                       hull_margin(options.faults, model.criteria.l_min)),
+                                       hull_margin(faults, model.criteria.l_min)),
                           std::back_inserter(surfaces));
     }
     FaultPreparation preparation = prepare_faults(surfaces, model.domain.extent, model.frame, model.criteria.l_min,
-                                                  options.faults, progress, model.samples.positions);
+                                                  faults, progress, model.samples.positions);
     model.faults = std::move(preparation.faults);
     report.faults = std::move(preparation.accounts);
     if (domain != nullptr) {
@@ -326,7 +332,7 @@ void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& re
     }
     require_ground(model, report);
     if (!model.faults.empty()) {
-        const Box3 hull = model.domain.extent.grown(hull_margin(options.faults, model.criteria.l_min));
+        const Box3 hull = model.domain.extent.grown(hull_margin(faults, model.criteria.l_min));
         model.domain.hull = {model.frame.snapped(hull.lo), model.frame.snapped(hull.hi)};
     }
 }

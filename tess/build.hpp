@@ -23,6 +23,7 @@ struct BuildOptions {
     DensityMode density = DensityMode::canonical;
     std::vector<RegionName> region_names;  ///< points frame-local
     FaultOptions faults;
+    bool separate_faults = false;  ///< faults that run side by side and nowhere meet lower the spacing where affordable
     RefineOptions refine;
     bool refine_enabled = true;  ///< false stops after the initial tessellation
     std::string estimator;       ///< recorded in the model; the source below does the work

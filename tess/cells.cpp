@@ -85,16 +85,34 @@ bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
     return squared_length(area) > 0;
 }
 
+bool overlap(const Box3& box, const Vec3& a, const Vec3& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::max(a[axis], b[axis]) < box.lo[axis] || std::min(a[axis], b[axis]) > box.hi[axis]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells
 /// are connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
+/// They also are by gap cells that no sheet runs through, those beyond rims: a hole in a fault is open though its margin
+/// fills it.
 class RegionLabels {
   public:
-    RegionLabels(const Model& model, const TetMesh& mesh, CellTable& table)
+    RegionLabels(const Model& model, const TetMesh& mesh, const FaultProximity& faults, CellTable& table)
         : model_(model),
           extent_(model.domain.extent),
           all_inside_(model.domain.hull == model.domain.extent),
           mesh_(mesh),
-          table_(table) {}
+          faults_(faults),
+          table_(table),
+          way_(mesh.cells.size(), Way::unknown),
+          passed_(mesh.cells.size(), 0) {
+        for (const Fault& fault : model.faults) {
+            boxes_.push_back(bounding_box(fault.sheet.vertices));
+        }
+    }
 
     void run() {
         std::vector<std::int32_t> component(mesh_.cells.size(), -1);
@@ -119,21 +137,59 @@ class RegionLabels {
     }
 
   private:
+    enum class Way : std::uint8_t { unknown, barred, clear };
+
+    /// Its cells, without those of gaps that it passes.
     std::vector<std::uint32_t> flood(std::uint32_t first, std::vector<std::int32_t>& component) {
-        std::vector<std::uint32_t> cells{first};
+        std::vector<std::uint32_t> cells;
+        std::vector<std::uint32_t> reached{first};
         component[first] = table_.region_count;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
+        ++floods_;
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            if (table_.fault[reached[i]] < 0) {
+                cells.push_back(reached[i]);
+            }
             for (std::size_t k = 0; k < 4; ++k) {
-                const std::int32_t next = mesh_.neighbours[cells[i]][k];
+                const std::int32_t next = mesh_.neighbours[reached[i]][k];
                 const auto neighbour = static_cast<std::uint32_t>(next);
-                if (next >= 0 && component[neighbour] < 0 && table_.fault[neighbour] < 0 &&
-                    table_.beyond[neighbour] == 0 && open(cells[i], k)) {
+                if (next < 0 || table_.beyond[neighbour] != 0) {
+                    continue;
+                }
+                if (table_.fault[neighbour] >= 0) {
+                    if (passed_[neighbour] != floods_ && open(reached[i], k) && lets_pass(neighbour)) {
+                        passed_[neighbour] = floods_;
+                        reached.push_back(neighbour);
+                    }
+                } else if (component[neighbour] < 0 && open(reached[i], k)) {
                     component[neighbour] = table_.region_count;
-                    cells.push_back(neighbour);
+                    reached.push_back(neighbour);
                 }
             }
         }
         return cells;
+    }
+
+    /// A gap cell within the extent, none of whose edges meets a sheet. Sheets end at the extent's faces, faults do not.
+    [[nodiscard]] bool lets_pass(std::uint32_t cell) {
+        if (way_[cell] == Way::unknown) {
+            const auto& v = mesh_.cells[cell];
+            const bool within =
+                std::ranges::all_of(v, [&](std::uint32_t i) { return extent_.contains(mesh_.points[i]); });
+            const bool clear = within && std::ranges::none_of(cell_edges, [&](const auto& edge) {
+                                   return meets_sheet(mesh_.points[v[edge[0]]], mesh_.points[v[edge[1]]]);
+                               });
+            way_[cell] = clear ? Way::clear : Way::barred;
+        }
+        return way_[cell] == Way::clear;
+    }
+
+    [[nodiscard]] bool meets_sheet(const Vec3& a, const Vec3& b) const {
+        for (std::size_t f = 0; f < boxes_.size(); ++f) {
+            if (overlap(boxes_[f], a, b) && faults_.crosses(static_cast<std::int32_t>(f), a, b)) {
+                return true;
+            }
+        }
+        return false;
     }
 
     /// A few cells between seeds alone, shut in by gaps where faults meet: no block, but of the gaps.
@@ -163,7 +219,12 @@ class RegionLabels {
     const Box3& extent_;
     bool all_inside_;
     const TetMesh& mesh_;
+    const FaultProximity& faults_;
     CellTable& table_;
+    std::vector<Box3> boxes_;            ///< of the sheets
+    std::vector<Way> way_;               ///< by cell: through gaps
+    std::vector<std::uint32_t> passed_;  ///< by cell: in which flood
+    std::uint32_t floods_ = 0;
 };
 
 /// The region of the cell that holds a point; of one without, as its centroid is beyond the extent, that of the nearest
@@ -213,15 +274,6 @@ double percent(std::size_t part, std::size_t whole) {
 /// Value at fraction q of a sorted sequence, nearest rank.
 double quantile(const std::vector<float>& sorted, double q) {
     return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
-}
-
-bool overlap(const Box3& box, const Vec3& a, const Vec3& b) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::max(a[axis], b[axis]) < box.lo[axis] || std::min(a[axis], b[axis]) > box.hi[axis]) {
-            return false;
-        }
-    }
-    return true;
 }
 
 }  // namespace
@@ -294,7 +346,7 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh) {
         table.beyond[c] = bounds_model(table.fault[c]) || bounds.excludes(centroid) ? 1 : 0;
         table.in_extent[c] = table.beyond[c] == 0 && model.domain.extent.contains(centroid);
     }
-    RegionLabels(model, mesh, table).run();
+    RegionLabels(model, mesh, faults, table).run();
     name_regions(model, mesh, table);
     return table;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/conformity.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +49,15 @@ void for_each_facet(std::vector<Side<Key>>& sides, Visit&& visit) {
     }
 }
 
+/// Exactly: the computed volume of a sliver may be 0, or below.
+bool is_positive(const TetMesh& mesh, const std::array<std::uint32_t, 4>& cell) {
+    const auto point = [&](std::size_t k) {
+        const Vec3& p = mesh.points[cell[k]];
+        return CGAL::Exact_predicates_inexact_constructions_kernel::Point_3(p.x, p.y, p.z);
+    };
+    return CGAL::orientation(point(0), point(1), point(2), point(3)) == CGAL::POSITIVE;
+}
+
 bool on_face(const Box3& box, const std::array<Vec3, 3>& corners) {
     for (int axis = 0; axis < 3; ++axis) {
         for (const double at : {box.lo[axis], box.hi[axis]}) {
@@ -78,7 +89,7 @@ Conformity check_conformity(const TetMesh& mesh, std::span<const std::int32_t> r
         const Vec3& a = mesh.points[v[0]];
         const double volume = dot(cross(mesh.points[v[1]] - a, mesh.points[v[2]] - a), mesh.points[v[3]] - a) / 6;
         result.volume += volume;
-        if (!(volume > 0)) {
+        if (!is_positive(mesh, v)) {
             offends(result.not_positive, c);
         }
         for (std::uint32_t k = 0; k < 4; ++k) {

@@ -60,6 +60,13 @@ double hull_margin(const FaultOptions& options, double l_min) {
     return FaultScale(options, l_min).hull;
 }
 
+double separating_spacing(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, double l_min,
+                          const FaultOptions& options, const Progress& progress) {
+    validate(options, l_min);
+    return FaultPreparer(surfaces, extent, frame, FaultScale(options, l_min), options, progress, {})
+        .separating_spacing();
+}
+
 FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
                                 double l_min, const FaultOptions& options, const Progress& progress,
                                 std::span<const Vec3> samples) {

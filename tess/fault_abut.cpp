@@ -112,13 +112,14 @@ std::set<std::uint32_t> folded_points(const FaultMesh& mesh, const std::vector<V
 
 }  // namespace
 
-std::size_t extend_to_neighbours(std::vector<Sheet>& sheets, double tolerance) {
+std::size_t extend_to_neighbours(std::vector<Sheet>& sheets, double tolerance, const Poll& poll) {
     if (sheets.size() < 2) {
         return 0;
     }
     const Neighbourhood neighbourhood(sheets);
     std::size_t total = 0;
     for (std::uint32_t i = 0; i < sheets.size(); ++i) {
+        ask(poll);
         FaultMesh& mesh = sheets[i].mesh;
         const std::vector<Vec3> before = mesh.points;
         std::set<std::uint32_t> moved;

@@ -55,7 +55,7 @@ std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
 }
 
 std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                                       const SizeField& sizes, const std::vector<char>& walls) {
+                                       const SizeField& sizes, const std::vector<char>& walls, const Poll& poll) {
     const double spacing = sizes.spacing();
     const double horizon = 0.75 * spacing;
     std::vector<TriangleCorners> triangles;
@@ -76,13 +76,20 @@ std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::v
     const SeedGrid junctions(ends, 0.5 * spacing);
     std::vector<char> leaky(complex.triangles.size(), 0);
     for (std::uint32_t surface = 0; surface < seeds.size(); ++surface) {
-        for (const Seed& seed : seeds[surface]) {
+        for (std::size_t k = 0; k < seeds[surface].size(); ++k) {
+            if (k % 256 == 0) {
+                ask(poll);
+            }
+            const Seed& seed = seeds[surface][k];
             const std::uint32_t junction = junctions.nearest(seed.position);
             if (junction != SeedGrid::none &&
                 distance(junctions.point(junction), seed.position) < junction_zone * sizes.at(seed.position)) {
                 continue;
             }
             for (const std::uint32_t t : grid.candidates(seed.position)) {
+                if (leaky[t] != 0) {
+                    continue;
+                }
                 const bool harmless =
                     complex.sheet[t] == surface || (walls[complex.sheet[t]] != 0 && walls[surface] != 0);
                 const double square = harmless ? horizon * horizon : grid.squared_distance_to(t, seed.position);

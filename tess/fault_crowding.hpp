@@ -10,6 +10,7 @@
 #include "tess/fault.hpp"
 #include "tess/fault_complex.hpp"
 #include "tess/fault_mesher.hpp"
+#include "tess/poll.hpp"
 #include "tess/size_field.hpp"
 
 namespace terratet {
@@ -30,6 +31,6 @@ std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
 /// smaller than about 1.1 √(s d). Seeds of the junction itself
 /// don't count, nor do those of one of the `walls`, by surface, for another: edges over their corners harm nothing.
 std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
-                                       const SizeField& sizes, const std::vector<char>& walls);
+                                       const SizeField& sizes, const std::vector<char>& walls, const Poll& poll = {});
 
 }  // namespace terratet

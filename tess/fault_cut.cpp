@@ -77,9 +77,13 @@ std::optional<std::uint32_t> tangled(const std::vector<std::array<std::uint32_t,
 }
 
 std::map<std::uint32_t, Cuts> find_cuts(const std::vector<std::array<std::uint32_t, 2>>& pairs,
-                                        const std::vector<Piece>& pieces) {
+                                        const std::vector<Piece>& pieces, const Poll& poll) {
     std::map<std::uint32_t, Cuts> cuts;
+    std::size_t seen = 0;
     for (const auto& [s, t] : pairs) {
+        if (seen++ % 256 == 0) {
+            ask(poll);
+        }
         const auto common = CGAL::intersection(triangle<Exact>(pieces[s].corners), triangle<Exact>(pieces[t].corners));
         if (!common) {
             continue;
@@ -285,7 +289,8 @@ std::size_t drop_stubs(FaultComplex& complex, double tolerance, std::vector<doub
 
 }  // namespace
 
-CutSheets cut_sheets(const std::vector<Sheet>& sheets, std::uint32_t surface_count, double tolerance) {
+CutSheets cut_sheets(const std::vector<Sheet>& sheets, std::uint32_t surface_count, double tolerance,
+                     const Poll& poll) {
     CutSheets result;
     result.trimmed.assign(surface_count, 0);
     std::vector<Piece> pieces;
@@ -299,7 +304,7 @@ CutSheets cut_sheets(const std::vector<Sheet>& sheets, std::uint32_t surface_cou
     if (result.tangled) {
         return result;
     }
-    const std::map<std::uint32_t, Cuts> cuts = find_cuts(pairs, pieces);
+    const std::map<std::uint32_t, Cuts> cuts = find_cuts(pairs, pieces, poll);
     Weld weld;
     for (std::uint32_t t = 0; t < pieces.size(); ++t) {
         const std::uint32_t surface = sheets[pieces[t].sheet].surface;
@@ -308,6 +313,7 @@ CutSheets cut_sheets(const std::vector<Sheet>& sheets, std::uint32_t surface_cou
             weld.add(pieces[t].corners, surface);
             continue;
         }
+        ask(poll);
         for (const TriangleCorners& part : parts_of(pieces[t], cut->second, pieces, result.trimmed[surface])) {
             weld.add(part, surface);
         }

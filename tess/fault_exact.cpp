@@ -7,6 +7,7 @@
 #include "tess/compatible.hpp"
 #include "tess/fault_seed.hpp"
 #include "tess/seed_grid.hpp"
+#include "tess/seed_tree.hpp"
 
 namespace terratet {
 namespace {
@@ -44,11 +45,15 @@ class ExactSeeds {
         }
         const SeedGrid points = grid_of_points();
         for (std::uint32_t t = 0; t < chosen.size(); ++t) {
+            if (t % 256 == 0) {
+                ask(task_.poll);
+            }
             if (chosen[t] == 0) {
                 add_other(t, points);
             }
         }
         add_rings(chosen, points);
+        ask(task_.poll);
         SeededComplex result;
         result.certified = certify();
         result.radius = radius_;
@@ -110,6 +115,9 @@ class ExactSeeds {
         std::vector<char> able(complex_.triangles.size(), 0);
         std::vector<std::vector<std::uint32_t>> star(complex_.points.size());
         for (std::uint32_t t = 0; t < able.size(); ++t) {
+            if (t % 256 == 0) {
+                ask(task_.poll);
+            }
             if (radical_[t].height > 0 && !is_relaxed(t) && sees_its_seeds(t)) {
                 able[t] = 1;
                 for (const std::uint32_t v : complex_.triangles[t]) {
@@ -132,6 +140,7 @@ class ExactSeeds {
                 });
             }
         }
+        ask(task_.poll);
         std::vector<char> chosen = compatible(std::move(conflicts));
         for (std::uint32_t t = 0; t < able.size(); ++t) {
             chosen[t] = chosen[t] != 0 && able[t] != 0 ? 1 : 0;
@@ -142,11 +151,11 @@ class ExactSeeds {
     /// The theorem's conditions: the triangle's own seeds are there, on the spheres about its corners and on its own
     /// sides, and nothing is strictly inside these.
     [[nodiscard]] std::vector<char> certify() const {
-        const SeedGrid seeds(collector_.places(), 1.1 * task_.sizes.spacing());
+        const SeedTree seeds(collector_.places());
         std::vector<char> clear(complex_.points.size(), 1);
         for (std::size_t v = 0; v < clear.size(); ++v) {
-            const std::uint32_t nearest = seeds.nearest(complex_.points[v]);
-            if (nearest != SeedGrid::none &&
+            const std::uint32_t nearest = seeds.nearest(complex_.points[v], 1.1 * task_.sizes.spacing());
+            if (nearest != SeedTree::none &&
                 distance(seeds.point(nearest), complex_.points[v]) < radius_[v] * (1 - tolerance)) {
                 clear[v] = 0;
             }

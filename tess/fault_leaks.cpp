@@ -14,7 +14,9 @@
 #include <utility>
 
 #include "tess/fault_mesh.hpp"
+#include "tess/fault_probes.hpp"
 #include "tess/fault_proximity.hpp"
+#include "tess/fault_zone.hpp"
 #include "tess/seed_grid.hpp"
 #include "tess/triangle_grid.hpp"
 
@@ -42,6 +44,8 @@ constexpr double plain_radius = 0.75;  ///< looked at so far from a seed, in spa
 constexpr double shallow = 0.95;       ///< of the protection radius: balls reach that far anyhow
 constexpr double inside = 0.995;       ///< of the protection radius: what is protected for sure
 constexpr std::size_t most_planes = 24;
+constexpr double close_probes = 0.2;  ///< in protection radii: probes nearer to each other than that,
+constexpr double close_out = 0.9;     ///< and standing out into directions with this cosine at least, tell the same
 
 Kernel::Point_3 to_cgal(const Vec3& p) {
     return {p.x, p.y, p.z};
@@ -81,17 +85,13 @@ struct Plane {
     double protection = 0;  ///< of its fault
 };
 
-/// Unless it is there.
-bool add_plane(const Plane& plane, std::vector<Plane>& planes) {
-    const bool seen = std::ranges::any_of(planes, [&](const Plane& other) {
-        return std::abs(dot(other.normal, plane.normal)) > same_normal &&
-               std::abs(dot(other.base - plane.base, plane.normal)) < same_height * plane.protection;
-    });
-    if (seen || planes.size() == most_planes || plane.normal == Vec3{}) {
-        return false;
-    }
-    planes.push_back(plane);
-    return true;
+/// Neither there nor too many?
+bool is_wanted(const Plane& plane, const std::vector<Plane>& planes) {
+    return planes.size() < most_planes && plane.normal != Vec3{} &&
+           std::ranges::none_of(planes, [&](const Plane& other) {
+               return std::abs(dot(other.normal, plane.normal)) > same_normal &&
+                      std::abs(dot(other.base - plane.base, plane.normal)) < same_height * plane.protection;
+           });
 }
 
 /// What lies round a pair of seeds.
@@ -106,6 +106,7 @@ struct LeakFinder::Impl {
     std::span<const Fault> faults;
     Box3 hull;
     FaultProximity proximity;
+    FaultZone zone;
     std::vector<Box3> boxes;              ///< of the sheets
     TriangleGrid grid;                    ///< of the sheets
     std::vector<std::uint32_t> fault_of;  ///< of each triangle there
@@ -118,9 +119,7 @@ struct LeakFinder::Impl {
     SeedGrid protected_balls;
     std::vector<std::uint32_t> protectors;  ///< of these balls
     double probe_reach;                     ///< larger balls are probed about their seeds alone
-    SeedGrid probes;                        ///< places just out of the zone
-    std::vector<Vec3> probe_out;            ///< away from the triangle
-    std::vector<std::uint32_t> probe_fault;
+    FaultProbes probes;
     std::vector<Cell> found;  ///< by number of the leak, in the last find()
     std::vector<Edge> leaking_edges;
 
@@ -128,9 +127,9 @@ struct LeakFinder::Impl {
         : faults(given),
           hull(box),
           proximity(given),
+          zone(given),
           protected_balls({}, widest_protection(given)),
-          probe_reach(2 * widest_protection(given)),
-          probes({}, 0.25 * probe_reach) {
+          probe_reach(2 * widest_protection(given)) {
         std::vector<TriangleCorners> triangles;
         std::vector<double> reach;
         for (std::uint32_t f = 0; f < faults.size(); ++f) {
@@ -169,26 +168,34 @@ struct LeakFinder::Impl {
         }
     }
 
-    /// Where seeds' planes may not tell.
+    /// Where seeds' planes may not tell; of those that stand close together over one fault, one.
     void place_probes() {
+        std::vector<FaultProbe> placed;
+        SeedGrid places({}, close_probes * widest_protection(faults));
         for (std::uint32_t t = 0; t < grid.size(); ++t) {
             const TriangleCorners& c = grid.triangle(t);
-            const Vec3 up = beyond * faults[fault_of[t]].protection_radius * normals[t];
+            const double protection = faults[fault_of[t]].protection_radius;
             const Vec3 middle = centroid(c);
             if (is_plain(fault_of[t], middle, normals[t])) {
                 continue;
             }
             for (const Vec3& x : {middle, 0.5 * (middle + c[0]), 0.5 * (middle + c[1]), 0.5 * (middle + c[2])}) {
                 for (const double side : {1.0, -1.0}) {
-                    const Vec3 probe = x + side * up;
-                    if (hull.contains(probe) && proximity.protecting_fault(probe) < 0) {
-                        probes.insert(probe);
-                        probe_out.push_back(side * normals[t]);
-                        probe_fault.push_back(fault_of[t]);
+                    const FaultProbe probe{x + side * beyond * protection * normals[t], side * normals[t], fault_of[t]};
+                    bool there = false;
+                    places.visit(probe.place, [&](std::uint32_t k) {
+                        there = there || (placed[k].fault == probe.fault &&
+                                          dot(placed[k].out, probe.out) > close_out &&
+                                          distance(placed[k].place, probe.place) < close_probes * protection);
+                    });
+                    if (!there && hull.contains(probe.place) && !zone.contains(probe.place)) {
+                        places.insert(probe.place);
+                        placed.push_back(probe);
                     }
                 }
             }
         }
+        probes = FaultProbes(std::move(placed));
     }
 
     /// No other sheet is near, no rim, and no bend.
@@ -211,9 +218,9 @@ struct LeakFinder::Impl {
         here.planes.push_back({base, normal, faults[owner].protection_radius});
         const double near = sight * faults[owner].spacing;
         for (const std::uint32_t t : grid.candidates(base)) {
-            const double square = grid.squared_distance_to(t, base);
-            if (square < near * near) {
-                add_plane({grid.triangle(t)[0], normals[t], faults[fault_of[t]].protection_radius}, here.planes);
+            const Plane plane{grid.triangle(t)[0], normals[t], faults[fault_of[t]].protection_radius};
+            if (is_wanted(plane, here.planes) && grid.squared_distance_to(t, base) < near * near) {
+                here.planes.push_back(plane);
             }
         }
         here.plain = is_plain(owner, base, normal);
@@ -221,7 +228,7 @@ struct LeakFinder::Impl {
     }
 
     /// In the cells that were not looked at before, and of edges that leaked.
-    std::vector<Leak> find() {
+    std::vector<Leak> find(const std::function<void(double)>& progress) {
         std::vector<std::pair<Leak, Cell>> leaks;
         std::vector<Edge> edges = std::move(leaking_edges);
         leaking_edges.clear();
@@ -232,7 +239,12 @@ struct LeakFinder::Impl {
             return !sites[edge[0]].present || !sites[edge[1]].present ||
                    !tessellation.is_edge(vertices[edge[0]], vertices[edge[1]], cell, i, j);
         });
+        const auto all = static_cast<double>(tessellation.number_of_cells());
+        std::size_t looked_at = 0;
         for (const auto cell : tessellation.finite_cell_handles()) {
+            if (progress && looked_at++ % 1024 == 0) {
+                progress(std::min(1.0, static_cast<double>(looked_at) / all));
+            }
             if (std::exchange(cell->info().yes, true)) {
                 continue;
             }
@@ -303,9 +315,8 @@ struct LeakFinder::Impl {
                 widest = protection;
                 leak.protector = sites[i].owner;
             }
-            for (const Plane& plane : around[i / 2].planes) {
-                add_plane(plane, planes);
-            }
+            std::ranges::copy_if(around[i / 2].planes, std::back_inserter(planes),
+                                 [&](const Plane& plane) { return is_wanted(plane, planes); });
         }
         return leaks_over(planes, cell, v, leak) || holds_probe(cell, v, leak);
     }
@@ -357,7 +368,7 @@ struct LeakFinder::Impl {
                 behind[count++] = i;
             }
         }
-        if (count == 0 || is_protected(to) || proximity.protecting_fault(to) >= 0) {  // that rules out most
+        if (count == 0 || is_protected(to) || zone.contains(to)) {  // that rules out most
             return false;
         }
         for (const std::uint32_t i : std::span(behind).first(count)) {
@@ -371,34 +382,34 @@ struct LeakFinder::Impl {
     }
 
     bool holds_probe(const Cell& cell, const Corners& v, Leak& leak) const {
-        bool leaky = false;
-        const auto test = [&](std::uint32_t k) { leaky = leaky || leads_to_probe(k, cell, v, leak); };
+        const auto test = [&](const FaultProbe& probe) { return leads_to_probe(probe, cell, v, leak); };
         if (leak.radius <= probe_reach) {
-            probes.visit_within(leak.center, leak.radius, test);
-            return leaky;
+            return probes.any_within(leak.center, leak.radius, test);
         }
         for (std::size_t k = 0; k < v.size(); ++k) {
             const Vec3& here = sites[v[k]].position;
             if (std::none_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(k),
-                             [&](std::uint32_t i) { return distance(sites[i].position, here) < 0.1 * probe_reach; })) {
-                probes.visit_within(here, probe_reach, test);
+                             [&](std::uint32_t i) {
+                                 return distance(sites[i].position, here) < 0.1 * probe_reach;
+                             }) &&
+                probes.any_within(here, probe_reach, test)) {
+                return true;
             }
         }
-        return leaky;
+        return false;
     }
 
     /// Through the sheet that the probe stands over.
-    bool leads_to_probe(std::uint32_t k, const Cell& cell, const Corners& v, Leak& leak) const {
-        const Vec3& to = probes.point(k);
-        const std::uint32_t f = probe_fault[k];
-        if (!holds(leak, to)) {
+    bool leads_to_probe(const FaultProbe& probe, const Cell& cell, const Corners& v, Leak& leak) const {
+        if (!holds(leak, probe.place)) {
             return false;
         }
         for (const std::uint32_t i : v) {
             const Vec3& from = sites[i].position;
-            const bool below = dot(to - from, probe_out[k]) > beyond * faults[f].protection_radius;
-            if (sites[i].owner != nobody && below && crosses(f, from, to)) {
-                return !is_protected(to) && describe(i, f, to, cell, leak);
+            const bool below =
+                dot(probe.place - from, probe.out) > beyond * faults[probe.fault].protection_radius;
+            if (sites[i].owner != nobody && below && crosses(probe.fault, from, probe.place)) {
+                return describe(i, probe.fault, probe.place, cell, leak);
             }
         }
         return false;
@@ -457,8 +468,8 @@ struct LeakFinder::Impl {
 LeakFinder::LeakFinder(std::span<const Fault> faults, const Box3& hull) : impl_(std::make_unique<Impl>(faults, hull)) {}
 LeakFinder::~LeakFinder() = default;
 
-std::vector<Leak> LeakFinder::find() {
-    return impl_->find();
+std::vector<Leak> LeakFinder::find(const std::function<void(double)>& progress) {
+    return impl_->find(progress);
 }
 
 const std::vector<LeakFinder::Site>& LeakFinder::sites() const {
@@ -466,6 +477,7 @@ const std::vector<LeakFinder::Site>& LeakFinder::sites() const {
 }
 
 void LeakFinder::protect(std::uint32_t fault, const Vec3& center) {
+    impl_->probes.retire_within(center, inside * impl_->faults[fault].protection_radius);
     impl_->protected_balls.insert(center);
     impl_->protectors.push_back(fault);
 }
@@ -500,6 +512,15 @@ double LeakFinder::distance_to_seed(const Vec3& p) const {
 
 double LeakFinder::distance_to_sheet(std::uint32_t fault, const Vec3& p) const {
     return impl_->proximity.distance_to_sheet(static_cast<std::int32_t>(fault), p);
+}
+
+double LeakFinder::distance_to_others(std::uint32_t fault, const Vec3& p, double most) const {
+    for (std::uint32_t f = 0; f < impl_->faults.size(); ++f) {
+        if (f != fault && distance(p, impl_->boxes[f].clamped(p)) < most) {
+            most = std::min(most, distance_to_sheet(f, p));
+        }
+    }
+    return most;
 }
 
 bool LeakFinder::is_hidden(const Vec3& a, const Vec3& b) const {

@@ -14,6 +14,7 @@
 /// do not both meet the crossed one are leaks as they are. Edges between two other vertices are ruled out likewise, one
 /// of them being hidden from a, unless both see a round a rim: there the margin has to be wide enough.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -52,8 +53,9 @@ class LeakFinder {
     LeakFinder(const LeakFinder&) = delete;
     LeakFinder& operator=(const LeakFinder&) = delete;
 
-    /// Where the tessellation changed since the last time; at first everywhere. One for each ball and edge.
-    [[nodiscard]] std::vector<Leak> find();
+    /// Where the tessellation changed since the last time; at first everywhere. One for each ball and edge. Tells the
+    /// progress the share of the balls that were looked at.
+    [[nodiscard]] std::vector<Leak> find(const std::function<void(double)>& progress = {});
 
     /// Those of the faults, in their order, and of pairs added; then the hull box's corners, without an owner.
     [[nodiscard]] const std::vector<Site>& sites() const;
@@ -71,6 +73,7 @@ class LeakFinder {
 
     [[nodiscard]] double distance_to_seed(const Vec3& p) const;
     [[nodiscard]] double distance_to_sheet(std::uint32_t fault, const Vec3& p) const;
+    [[nodiscard]] double distance_to_others(std::uint32_t fault, const Vec3& p, double most) const;  ///< `most` at most
     [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;            ///< by any sheet
     [[nodiscard]] Vec3 normal_at(std::uint32_t fault, const Vec3& place) const;  ///< \pre on its sheet
 

@@ -166,4 +166,33 @@ double Alongside::share_of(const FaultMesh& other, const Box3& where, double nea
     return total > 0 ? shared / total : 0;
 }
 
+double Alongside::distance_of(const FaultMesh& other, const Box3& where, double share, double most) const {
+    double nearer = 0;
+    double far = most;
+    while (far - nearer > 1e-3 * most) {
+        const double middle = 0.5 * (nearer + far);
+        (share_of(other, where, middle) > share ? far : nearer) = middle;
+    }
+    return far;
+}
+
+bool touch(const FaultMesh& a, const FaultMesh& b) {
+    if (!overlap(bounding_box(a.points), bounding_box(b.points))) {
+        return false;
+    }
+    Triangles triangles;
+    for (const Triangle& t : a.triangles) {
+        const auto point = [&](std::uint32_t v) { return Kernel::Point_3(a.points[v].x, a.points[v].y, a.points[v].z); };
+        if (const Kernel::Triangle_3 own(point(t[0]), point(t[1]), point(t[2])); !own.is_degenerate()) {
+            triangles.push_back(own);
+        }
+    }
+    const Tree tree(triangles.cbegin(), triangles.cend());
+    return std::ranges::any_of(b.triangles, [&](const Triangle& t) {
+        const auto point = [&](std::uint32_t v) { return Kernel::Point_3(b.points[v].x, b.points[v].y, b.points[v].z); };
+        const Kernel::Triangle_3 own(point(t[0]), point(t[1]), point(t[2]));
+        return !own.is_degenerate() && tree.do_intersect(own);
+    });
+}
+
 }  // namespace terratet

@@ -36,9 +36,15 @@ class Alongside {
     /// Share of the other's area within `where` that is nearer than `near` to the mesh and at less than 30° to it.
     [[nodiscard]] double share_of(const FaultMesh& other, const Box3& where, double near) const;
 
+    /// How near that share of the other runs, to a thousandth of `most`; no more than `most`.
+    [[nodiscard]] double distance_of(const FaultMesh& other, const Box3& where, double share, double most) const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Do the two share a point?
+bool touch(const FaultMesh& a, const FaultMesh& b);
 
 }  // namespace terratet

@@ -65,7 +65,7 @@ void append(FaultComplex& to, const FaultComplex& more) {
 FaultMesher::FaultMesher(FaultComplex cut, double spacing, FaultMode mode, std::vector<char> bounds)
     : cut_(std::move(cut)), mode_(mode), bounds_(std::move(bounds)), sizes_(spacing) {}
 
-FaultRemesher::Result FaultMesher::mesh() {
+FaultRemesher::Result FaultMesher::mesh(const Poll& poll) {
     if (!remesher_ || (!staying_.triangles.empty() && !sizes_.uniform())) {
         staying_ = {};
         remesher_ = std::make_unique<FaultRemesher>(
@@ -73,7 +73,7 @@ FaultRemesher::Result FaultMesher::mesh() {
             mode_ == FaultMode::exact ? FaultRemesher::Collapse::where_changed : FaultRemesher::Collapse::everywhere,
             bounds_);
     }
-    FaultRemesher::Result result = remesher_->pass();
+    FaultRemesher::Result result = remesher_->pass(poll);
     append(result.complex, staying_);
     triangles_ = result.complex.triangles.size();
     first_triangles_ = first_triangles_ == 0 ? triangles_ : first_triangles_;

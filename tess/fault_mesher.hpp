@@ -36,7 +36,7 @@ class FaultMesher {
 
     /// The sheets at the sizes now wanted. Pieces that suit the spacing as they came and meet no other sheet are kept
     /// as they are until something is refined.
-    FaultRemesher::Result mesh();
+    FaultRemesher::Result mesh(const Poll& poll = {});
 
     /// Asks for triangles of given sizes.
     void want(const std::vector<WantedSize>& wishes);

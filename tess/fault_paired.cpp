@@ -38,6 +38,9 @@ class PairedSeeds {
         SeededComplex result;
         result.certified.assign(complex_.triangles.size(), 0);
         for (std::uint32_t v = 0; v < complex_.points.size(); ++v) {
+            if (v % 256 == 0) {
+                ask(task_.poll);
+            }
             place(v);
         }
         const double spacing = task_.sizes.spacing();

@@ -28,6 +28,8 @@ bool crosses_itself(const FaultMesh& mesh) {
     return !crossing_triangles(alone).empty();
 }
 
+constexpr const char* enough = ", and too many others do not get along to try what would";
+
 /// Points at equal places become one.
 void weld(FaultMesh& mesh) {
     std::map<Vec3, std::uint32_t> first;
@@ -82,6 +84,10 @@ FaultPreparation FaultPreparer::run() {
     return result;
 }
 
+Poll FaultPreparer::told(std::string_view stage, double fraction) const {
+    return [this, stage, fraction] { report_progress(progress_, stage, fraction); };
+}
+
 std::string FaultPreparer::text_of(const Vec3& place) const {
     const Vec3 p = frame_.to_world(place);
     std::array<char, 96> buffer{};
@@ -130,17 +136,18 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         walls.push_back(candidate.surface->kind == SurfaceKind::domain ? 1 : 0);
     }
     mesher_->keep(active);
+    ++attempts_;
     const SizeField& sizes = mesher_->sizes();
     Pass pass;
     pass.trimmed = cut_.trimmed;
     const bool paired = options_.mode == FaultMode::paired;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
     for (int halving = 0;; ++halving) {
-        report_progress(progress_, "meshing faults", 1 - 1 / (1 + 0.2 * passes_++));
-        FaultRemesher::Result meshed = mesher_->mesh();
+        const double meshed_share = 1 - 1 / (1 + 0.2 * passes_++);
+        FaultRemesher::Result meshed = mesher_->mesh(told("meshing faults", meshed_share));
         const auto& crossings = meshed.crossings;
         pass.complex = std::move(meshed.complex);
-        const bool last = halving == halvings || mesher_->overgrown();
+        const bool last = halving == halvings || mesher_->overgrown() || hurries();
         if (!crossings.empty()) {
             const bool helps = 2 * crossings.size() <= crossings_before;
             crossings_before = crossings.size();
@@ -167,9 +174,9 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
         for (Vec3& p : pass.complex.points) {
             p = frame_.snapped(p);
         }
-        report_progress(progress_, "seeding faults", 1 - 1 / (1 + 0.2 * passes_));
-        seed(pass, sizes);
-        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes, walls),
+        const Poll seeding = told("seeding faults", 1 - 1 / (1 + 0.2 * passes_));
+        seed(pass, sizes, seeding);
+        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes, walls, seeding),
                                      paired ? halvings : exact_halvings)) {
             continue;
         }
@@ -211,7 +218,7 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
 /// Once for all attempts: what is refused later leaves no more than points on the others.
 void FaultPreparer::cut() {
     do {
-        report_progress(progress_, "cutting faults", 0);
+        const Poll cutting = told("cutting faults", 0);
         std::vector<Sheet> sheets;
         for (const Candidate& candidate : candidates_) {
             if (candidate.active) {
@@ -219,13 +226,13 @@ void FaultPreparer::cut() {
             }
         }
         const std::vector<Sheet> before = sheets;
-        extend_to_neighbours(sheets, scale_.snap);
+        extend_to_neighbours(sheets, scale_.snap, cutting);
         for (std::size_t i = 0; i < sheets.size(); ++i) {
             if (candidates_[sheets[i].surface].surface->kind == SurfaceKind::domain) {
                 sheets[i] = before[i];  // walls end on each other as they are
             }
         }
-        cut_ = cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap);
+        cut_ = cut_sheets(sheets, static_cast<std::uint32_t>(candidates_.size()), scale_.snap, cutting);
         if (cut_.tangled) {
             refuse(candidates_[*cut_.tangled],
                    "is a tangle: its triangles meet those of its other parts and of other "
@@ -257,7 +264,12 @@ bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std
             refuse(candidates_[a], "meets itself where its parts touch: no sheet can be made of it");
         } else {
             const bool first_stays = weight(candidates_[a]) >= weight(candidates_[b]);
-            refuse(candidates_[first_stays ? b : a], what + described(candidates_[first_stays ? a : b]));
+            const std::uint32_t goes = first_stays ? b : a;
+            const std::uint32_t stays = first_stays ? a : b;
+            refuse(candidates_[goes], what + described(candidates_[stays]));
+            if (hurries() && !is_bound(candidates_[stays].surface->kind)) {
+                refuse(candidates_[stays], what + described(candidates_[goes]) + enough);
+            }
         }
         any = true;
     }
@@ -277,18 +289,18 @@ bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
                          "is too rough for the spacing, or meets it at too small an angle: remeshed it still crosses ");
 }
 
-void FaultPreparer::seed(Pass& pass, const SizeField& sizes) const {
+void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll) const {
     const EdgeTable edges(pass.complex.triangles);
     const FaultWall wall(pass.complex);
     const auto count = static_cast<std::uint32_t>(candidates_.size());
     if (options_.mode == FaultMode::paired) {
         pass.skirts = skirts(pass.complex, edges);
-        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width}, pass.skirts);
+        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll}, pass.skirts);
     } else {
         const FaultComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
         const EdgeTable all_edges(whole_complex.triangles);
-        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_});
+        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll});
         pass.skirts.assign(count, FaultMesh{whole_complex.points, {}});
         for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
             pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);

@@ -35,6 +35,11 @@ struct FaultScale {
     double hull;        ///< and the hull box
 };
 
+/// The spacing asked for, or as much less as it takes that no surface is refused for running too near to one that it
+/// nowhere meets, if that can be afforded: with `affordable` seeds. Else what takes the nearest surfaces that can be.
+double separating_spacing(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, double l_min,
+                          const FaultOptions& options, const Progress& progress);
+
 class FaultPreparer {
   public:
     FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, const FaultScale& scale,
@@ -42,7 +47,12 @@ class FaultPreparer {
 
     FaultPreparation run();
 
+    /// See separating_spacing().
+    double separating_spacing();
+
   private:
+    static constexpr int patience = 5;
+
     /// A surface on its way; its place in the list is its number in the complex.
     struct Candidate {
         const Surface* surface = nullptr;
@@ -70,15 +80,31 @@ class FaultPreparer {
     [[nodiscard]] std::string text_of(const Vec3& place) const;  ///< its world coordinates
     static std::string described(const Candidate& candidate);
     void refuse_alternatives();
+    /// Two surfaces of which one mostly runs alongside the other and goes.
+    struct Close {
+        std::size_t larger = 0;
+        std::size_t smaller = 0;
+        bool apart = false;   ///< they nowhere meet: two, not two versions of one
+        double distance = 0;  ///< if so: at which the smaller one runs,
+        double spacing = 0;   ///< and that would keep both
+    };
+    std::vector<Close> close_pairs();
+    [[nodiscard]] std::string reason_of(const Close& pair) const;
+    [[nodiscard]] double seeds_at(double spacing) const;  ///< an estimate for all that is left
     void check_budget() const;
     void extend(std::uint32_t number);
 
     /// Nothing when surfaces were refused and the rest is to be tried again.
     std::optional<Pass> attempt();
+    /// Enough was tried: from now on triangles stay as large as they are, and of two surfaces that do not get along
+    /// both go, so that it ends soon. What is tried is counted, not timed: the same surfaces give the same faults.
+    [[nodiscard]] bool hurries() const { return attempts_ > patience; }
     void cut();
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
     bool refuse_crossing(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
-    void seed(Pass& pass, const SizeField& sizes) const;
+    void seed(Pass& pass, const SizeField& sizes, const Poll& poll) const;
+    /// \pre The stage's name outlives what is returned.
+    [[nodiscard]] Poll told(std::string_view stage, double fraction) const;
     [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;
 
     /// False when surfaces were refused that could not be sealed.
@@ -89,7 +115,7 @@ class FaultPreparer {
         std::vector<std::uint32_t> numbers;
     };
     [[nodiscard]] Barriers barriers(const Pass& pass) const;
-    bool relax(std::vector<FaultSeal::Open>& open);
+    bool relax(std::vector<FaultSeal::Open>& open, int round);
     bool refuse_leaking(const std::vector<FaultSeal::Open>& open, const std::vector<std::uint32_t>& numbers);
 
     /// A surface as a fault, and which triangles of its sheet are certified.
@@ -114,6 +140,8 @@ class FaultPreparer {
     std::unique_ptr<FaultMesher> mesher_;
     std::vector<Vec3> relaxed_;  ///< see SeedTask
     int passes_ = 0;             ///< of the mesher
+    int seals_ = 0;
+    int attempts_ = 0;
 };
 
 }  // namespace terratet

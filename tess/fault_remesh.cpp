@@ -83,7 +83,8 @@ class FaultRemesher::Impl {
         keep_corners(complex);
     }
 
-    Result pass() {
+    Result pass(const Poll& poll) {
+        poll_ = poll;
         const bool first = passes_++ == 0;
         if (!first) {
             editor_.wake_only(editor_.update_sizes());
@@ -179,6 +180,7 @@ class FaultRemesher::Impl {
 
     void split_long() {
         for (bool any = true; any;) {
+            ask(poll_);
             any = false;
             auto edges = editor_.edges();
             sort_by_length(edges);
@@ -215,6 +217,7 @@ class FaultRemesher::Impl {
 
     void collapse_short(Collapse where = Collapse::where_changed) {
         for (int pass = 0; pass < 4; ++pass) {
+            ask(poll_);
             auto edges = editor_.edges();
             std::erase_if(edges, [&](const auto& e) {
                 return (where == Collapse::where_changed && !editor_.awake(e[0]) && !editor_.awake(e[1])) ||
@@ -240,6 +243,7 @@ class FaultRemesher::Impl {
 
     void flip_all(int passes) {
         for (int pass = 0; pass < passes; ++pass) {
+            ask(poll_);
             bool any = false;
             for (const auto& [u, v] : editor_.edges()) {
                 any = ((editor_.awake(u) || editor_.awake(v)) && editor_.flip(u, v)) || any;
@@ -252,6 +256,7 @@ class FaultRemesher::Impl {
 
     /// Centroidal for triangles inside a patch, halfway between neighbours along a chain.
     void smooth(double share) {
+        ask(poll_);
         for (std::uint32_t v = 0; v < editor_.point_count(); ++v) {
             if (!editor_.awake(v) || editor_.star(v).empty()) {
                 continue;
@@ -339,6 +344,7 @@ class FaultRemesher::Impl {
 
     /// Compares the triangles as they are with the best, and wakes the points that something is wrong about, if any.
     bool assess(Best& best) {
+        ask(poll_);
         mender_.drop_flaps();
         editor_.join_bounds();
         FaultComplex now = editor_.result();
@@ -418,6 +424,7 @@ class FaultRemesher::Impl {
     double snap_;
     Collapse later_;
     int passes_ = 0;
+    Poll poll_;
     std::vector<std::unique_ptr<PatchTarget>> surfaces_;
     std::map<Ties, LineTarget> lines_;  ///< rims and junctions, by the bounds they are on
 };
@@ -428,8 +435,8 @@ FaultRemesher::FaultRemesher(const FaultComplex& complex, const SizeField& sizes
 
 FaultRemesher::~FaultRemesher() = default;
 
-FaultRemesher::Result FaultRemesher::pass() {
-    return impl_->pass();
+FaultRemesher::Result FaultRemesher::pass(const Poll& poll) {
+    return impl_->pass(poll);
 }
 
 void FaultRemesher::keep(const std::vector<char>& active) {

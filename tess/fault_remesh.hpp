@@ -8,6 +8,7 @@
 #include <span>
 
 #include "tess/fault_complex.hpp"
+#include "tess/poll.hpp"
 #include "tess/size_field.hpp"
 
 namespace terratet {
@@ -37,7 +38,7 @@ class FaultRemesher {
     /// with any number of triangles). Snapping zips wedges below about 15°; rounds of that follow until no triangles
     /// cross and no wedge is below 10°, or nothing helps. Deterministic. About 0.3 ms a point the first time; later
     /// passes change the last one's triangles where sizes have changed, a tenth of that, and leave them less regular.
-    Result pass();
+    Result pass(const Poll& poll = {});
 
     /// Leaves out the surfaces not marked; where they met others, those keep their points on the line.
     void keep(const std::vector<char>& active);

@@ -3,6 +3,7 @@
 //
 // FaultPreparer's first steps: what is taken from the surfaces as read.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -16,6 +17,11 @@ namespace {
 
 constexpr double tangle_limit = 5;    ///< area over that of the extent's faces: no surface is folded so often
 constexpr double most_dropped = 0.5;  ///< share of a fault that may be lost in repair
+constexpr double clearly = 0.8;       ///< of the spacing that just keeps two surfaces that run side by side
+constexpr double affordable = 2e5;    ///< seeds that a spacing chosen for that may take
+constexpr double turned_back = 0.05;  ///< share of a surface's edges at which it may turn by more than a right angle,
+constexpr double crumpled = 2;        ///< if it has so many times the area that it spans,
+constexpr std::size_t telling = 50;   ///< and if there are so many such edges
 constexpr double crumb = 0.5;         ///< in spacings: smaller parts go
 constexpr double alternative = 0.6;   ///< share of a fault that may run alongside another; in spacings, how near
 
@@ -38,6 +44,45 @@ double area_within(const RepairedFault& repaired, const Box3& extent) {
         sum += area(cut_to_box(part, extent).inside);
     }
     return sum;
+}
+
+/// How crumpled a surface is. One through points that are no graph over their best-fit plane turns back on itself all
+/// over; a closed one, a folded one, or one with needles does not.
+struct Crumple {
+    std::size_t edges = 0;
+    std::size_t turned = 0;  ///< of these: by more than a right angle
+    double area = 0;
+    Vec3 spanned;
+
+    explicit Crumple(const std::vector<FaultMesh>& parts) {
+        for (const FaultMesh& part : parts) {
+            std::vector<Vec3> normals;
+            for (const Triangle& t : part.triangles) {
+                const Vec3 own = area_vector(corners(part, t));
+                area += length(own);
+                spanned = spanned + own;
+                normals.push_back(own);
+            }
+            const EdgeTable table(part.triangles);
+            for (const EdgeTable::Edge& e : table.edges()) {
+                if (const auto of_edge = table.triangles(e); of_edge.size() == 2) {
+                    ++edges;
+                    turned += dot(normals[of_edge[0]], normals[of_edge[1]]) < 0 ? 1 : 0;
+                }
+            }
+        }
+    }
+    [[nodiscard]] double share() const { return static_cast<double>(turned) / static_cast<double>(edges); }
+    [[nodiscard]] double times() const { return area / length(spanned); }
+    [[nodiscard]] bool is_too_much() const {
+        return turned >= telling && share() > turned_back && area > crumpled * length(spanned);
+    }
+};
+
+/// To two digits: what a person would type.
+double rounded_down(double value) {
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return std::floor(value / unit * (1 + 1e-9)) * unit;
 }
 
 const char* advice_on_overlap(SurfaceKind with) {
@@ -99,6 +144,13 @@ void FaultPreparer::screen(Candidate& candidate) {
                               " times that of the extent's faces; check the order of its corners");
         return;
     }
+    if (const Crumple crumple(candidate.repaired.parts); crumple.is_too_much()) {
+        refuse(candidate, "is no surface but a tangle: at " + short_text(std::round(100 * crumple.share())) +
+                              " % of its edges it turns back on itself, and it has " + short_text(crumple.times()) +
+                              " times the area that it spans; points make one only where in their best-fit plane no "
+                              "two parts of it lie over each other");
+        return;
+    }
     drop_self_crossings(candidate.repaired);
     drop_crumbs(candidate.repaired.parts);
     if (candidate.repaired.parts.empty()) {
@@ -135,45 +187,90 @@ void FaultPreparer::drop_doubles(std::vector<FaultMesh>& parts) const {
     }
 }
 
-/// The largest first, bounds before all; one that mostly runs alongside another is a second version of it, unless it is
-/// a wall of the domain, which is as near to the next one as the outline has it.
-void FaultPreparer::refuse_alternatives() {
+/// The largest first, bounds before all; one that mostly runs alongside another goes, unless it is a wall of the
+/// domain, which is as near to the next one as the outline has it.
+std::vector<FaultPreparer::Close> FaultPreparer::close_pairs() {
     std::vector<std::size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) {
         return std::pair(is_bound(candidates_[k].surface->kind), candidates_[k].area_inside);
     });
     std::vector<FaultMesh> meshes;
+    std::vector<char> stays;
     for (const Candidate& candidate : candidates_) {
         meshes.push_back(candidate.active ? whole(candidate.repaired) : FaultMesh{});
+        stays.push_back(candidate.active ? 1 : 0);
     }
+    std::vector<Close> pairs;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const Candidate& larger = candidates_[order[i]];
-        if (!larger.active) {
+        if (stays[order[i]] == 0) {
             continue;
         }
         const Alongside test(meshes[order[i]]);
-        for (std::size_t j = i + 1; j < order.size(); ++j) {
-            Candidate& smaller = candidates_[order[j]];
-            if (smaller.active && smaller.surface->kind != SurfaceKind::domain &&
-                test.share_of(meshes[order[j]], extent_, alternative * scale_.spacing) > alternative) {
-                refuse(smaller, "overlaps " + described(larger) + advice_on_overlap(larger.surface->kind));
+        for (const std::size_t smaller : std::span(order).subspan(i + 1)) {
+            report_progress(progress_, "comparing faults", static_cast<double>(i) / static_cast<double>(order.size()));
+            const double near = alternative * scale_.spacing;
+            if (stays[smaller] == 0 || candidates_[smaller].surface->kind == SurfaceKind::domain ||
+                !(test.share_of(meshes[smaller], extent_, near) > alternative)) {
+                continue;
             }
+            stays[smaller] = 0;
+            Close pair{order[i], smaller};
+            if (!is_bound(candidates_[order[i]].surface->kind) && !touch(meshes[order[i]], meshes[smaller])) {
+                pair.apart = true;
+                pair.distance = test.distance_of(meshes[smaller], extent_, alternative, near);
+                pair.spacing = rounded_down(clearly * pair.distance / alternative);
+            }
+            pairs.push_back(pair);
         }
+    }
+    return pairs;
+}
+
+std::string FaultPreparer::reason_of(const Close& pair) const {
+    const Candidate& larger = candidates_[pair.larger];
+    if (!pair.apart) {
+        return "overlaps " + described(larger) + advice_on_overlap(larger.surface->kind);
+    }
+    return "runs alongside " + described(larger) + " at a distance of " + short_text(rounded_down(pair.distance)) +
+           " without meeting it, too near for the fault spacing " + short_text(scale_.spacing) +
+           ": a --fault-spacing of " + short_text(pair.spacing) +
+           " keeps both, and auto finds it; if they are versions of one fault, keep one of them";
+}
+
+void FaultPreparer::refuse_alternatives() {
+    for (const Close& pair : close_pairs()) {
+        refuse(candidates_[pair.smaller], reason_of(pair));
     }
 }
 
-void FaultPreparer::check_budget() const {
-    const double per_area = (options_.mode == FaultMode::exact ? 4.7 : 2.4) / (scale_.spacing * scale_.spacing);
+double FaultPreparer::separating_spacing() {
+    repair();
+    std::vector<double> wanted{scale_.spacing};
+    for (const Close& pair : close_pairs()) {
+        if (pair.apart && seeds_at(pair.spacing) <= affordable) {
+            wanted.push_back(pair.spacing);
+        }
+    }
+    return std::max({std::ranges::min(wanted), options_.width, 2 * options_.snap});
+}
+
+double FaultPreparer::seeds_at(double spacing) const {
     double seeds = 0;
+    for (const Candidate& candidate : candidates_) {
+        seeds += candidate.active ? candidate.area_inside : 0;
+    }
+    return seeds * (options_.mode == FaultMode::exact ? 4.7 : 2.4) / (spacing * spacing);
+}
+
+void FaultPreparer::check_budget() const {
     const Candidate* largest = nullptr;
     for (const Candidate& candidate : candidates_) {
         if (candidate.active) {
-            seeds += per_area * candidate.area_inside;
             largest = largest == nullptr || candidate.area_inside > largest->area_inside ? &candidate : largest;
         }
     }
-    if (seeds > static_cast<double>(options_.max_seeds)) {
+    if (const double seeds = seeds_at(scale_.spacing); seeds > static_cast<double>(options_.max_seeds)) {
         throw Error("the faults need about " + short_text(seeds) + " seeds, most of them '" + largest->account.name +
                     "', and max_seeds allows " + std::to_string(options_.max_seeds) +
                     ": raise --fault-spacing, or leave faults out");

@@ -20,15 +20,20 @@ constexpr double touching = 1 - 1e-6;
 
 class Sealer {
   public:
-    Sealer(std::span<const Fault> faults, const Box3& hull, const Frame& frame)
-        : faults_(faults), hull_(hull), frame_(frame), finder_(faults, hull) {
+    Sealer(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+           const std::function<void(double)>& progress)
+        : faults_(faults), hull_(hull), frame_(frame), progress_(progress), finder_(faults, hull) {
         seal_.flakes.resize(faults.size());
     }
 
     FaultSeal run() {
         for (int round = 0; round <= rounds; ++round) {
             bool changes = false;
-            for (const Leak& leak : finder_.find()) {
+            std::size_t closed = 0;
+            for (const Leak& leak : finder_.find([&](double share) { report(round, share); })) {
+                if (closed++ % 64 == 0) {
+                    report(round, 1);
+                }
                 if (close_by_flake(leak) || will_change(leak) ||
                     (round < rounds && (add_pair(leak) || drop_pair(leak) || keep_away(leak)))) {
                     changes = true;
@@ -45,6 +50,13 @@ class Sealer {
     }
 
   private:
+    /// The first round looks at everything; the later ones are short, and nobody knows how many they are.
+    void report(int round, double share) const {
+        if (progress_) {
+            progress_(round == 0 ? 0.7 * share : 1 - 0.3 / (1 + 0.3 * (round - 1 + share)));
+        }
+    }
+
     struct Pair {
         std::uint32_t fault = 0;
         Vec3 plus;
@@ -76,12 +88,8 @@ class Sealer {
     bool add_pair(const Leak& leak) {
         const Fault& fault = faults_[leak.fault];
         const Vec3 normal = finder_.normal_at(leak.fault, leak.place);
-        double height = 0.5 * fault.width;
-        for (std::uint32_t f = 0; f < faults_.size(); ++f) {
-            if (f != leak.fault) {
-                height = std::min(height, 0.4 * finder_.distance_to_sheet(f, leak.place));
-            }
-        }
+        double height =
+            std::min(0.5 * fault.width, 0.4 * finder_.distance_to_others(leak.fault, leak.place, 2 * fault.width));
         for (; height > lowest * fault.spacing; height *= 0.5) {
             const Vec3 plus = frame_.snapped(leak.place + height * normal);
             const Vec3 minus = frame_.snapped(leak.place - height * normal);
@@ -164,6 +172,7 @@ class Sealer {
     std::span<const Fault> faults_;
     const Box3& hull_;
     const Frame& frame_;
+    const std::function<void(double)>& progress_;
     LeakFinder finder_;
     std::vector<Pair> added_;             ///< in this round
     std::vector<std::uint32_t> dropped_;  ///< in this round: first sites of pairs
@@ -172,8 +181,9 @@ class Sealer {
 
 }  // namespace
 
-FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame) {
-    return Sealer(faults, hull, frame).run();
+FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+                      const std::function<void(double)>& progress) {
+    return Sealer(faults, hull, frame, progress).run();
 }
 
 }  // namespace terratet

@@ -10,6 +10,7 @@
 /// all but lies on the other sheet, or several flakes keep free what the ball reaches. All this is repeated until
 /// nothing leaks, or no more can be done.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct FaultSeal {
     std::vector<Open> open;                ///< what could not be closed, ascending
 };
 
-/// Deterministic for faults in a given order. Some 50 µs a seed.
-FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame);
+/// Deterministic for faults in a given order. Some 50 µs a seed. Tells the progress the share that is done, and passes
+/// on what that throws.
+FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+                      const std::function<void(double)>& progress = {});
 
 }  // namespace terratet

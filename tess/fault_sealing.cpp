@@ -3,10 +3,16 @@
 //
 // FaultPreparer's last step: its seeds made tight.
 #include <algorithm>
+#include <cmath>
 
 #include "tess/fault_preparation.hpp"
 
 namespace terratet {
+namespace {
+
+constexpr int relaxations = 3;  ///< of certificates, before who cannot be sealed goes
+
+}  // namespace
 
 FaultPreparer::Barriers FaultPreparer::barriers(const Pass& pass) const {
     Barriers result;
@@ -22,19 +28,24 @@ FaultPreparer::Barriers FaultPreparer::barriers(const Pass& pass) const {
 bool FaultPreparer::seal(Pass& pass) {
     FaultSeal sealed;
     Barriers all;
-    for (bool again = true; again;) {
-        report_progress(progress_, "sealing faults", 0);
+    bool again = true;
+    for (int round = 1; again; ++round) {
+        const auto sealing = [&](double share) {
+            report_progress(progress_, "sealing faults", 1 - std::pow(0.3, seals_ + share));
+        };
+        sealing(0);
         all = barriers(pass);
         if (all.faults.empty()) {
             return true;
         }
-        sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_);
-        again = relax(sealed.open);
+        sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_, sealing);
+        ++seals_;
+        again = relax(sealed.open, round);
         if (refuse_leaking(sealed.open, all.numbers)) {
             return false;
         }
         if (again) {
-            seed(pass, mesher_->sizes());
+            seed(pass, mesher_->sizes(), [&] { sealing(0); });
         }
     }
     for (std::size_t f = 0; f < all.faults.size(); ++f) {
@@ -55,8 +66,8 @@ bool FaultPreparer::seal(Pass& pass) {
 }
 
 /// Gives up certificates where seeds could not be sealed, and leaves those where that did not help. Anything given up?
-bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open) {
-    if (options_.mode == FaultMode::paired) {
+bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open, int round) {
+    if (options_.mode == FaultMode::paired || hurries() || round > relaxations) {
         return false;
     }
     const std::size_t before = relaxed_.size();
@@ -88,10 +99,14 @@ bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
                 "cannot be sealed at " + place + ": edges may cross it there; use a finer --fault-spacing";
         } else if (crossed.active && other.active) {
             const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
-            refuse(crossed_stays ? other : crossed,
-                   "cannot be sealed at " + place +
-                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
-                       (options_.mode == FaultMode::paired ? " or the exact fault mode" : ""));
+            const std::string reason = "cannot be sealed at " + place +
+                                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
+                                       (options_.mode == FaultMode::paired ? " or the exact fault mode" : "");
+            Candidate& stays = crossed_stays ? crossed : other;
+            refuse(crossed_stays ? other : crossed, reason);
+            if (hurries() && stays.active && !bounds(stays)) {
+                refuse(stays, reason);
+            }
             any = true;
         }
     }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tess/seed_grid.hpp"
+#include "tess/seed_tree.hpp"
 
 namespace terratet {
 
@@ -28,6 +28,7 @@ void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear
     const double covered = task_.sizes.spacing() * std::numbers::sqrt2 / 2 * (1 + 1e-6);
     constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
     for (std::uint32_t surface = 0; surface < task_.surface_count; ++surface) {
+        ask(task_.poll);
         const FaultMesh sheet = sheet_of(task_.complex, surface);
         const std::vector<Vec3> normals = vertex_normals(sheet);
         std::vector<BasePoint> base;
@@ -53,9 +54,13 @@ void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear
 
 void SeedCollector::test_separation(SeededComplex& result) const {
     const FaultComplex& complex = task_.complex;
-    const SeedGrid seeds(places_, 1.2 * task_.sizes.spacing());
+    const SeedTree seeds(places_);
+    const double reach = 1.2 * task_.sizes.spacing();
     result.separated.assign(complex.triangles.size(), 1);
     for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
+        if (t % 256 == 0) {
+            ask(task_.poll);
+        }
         const TriangleCorners c = corners(complex, t);
         const Vec3 normal = unit(area_vector(c));
         const Vec3 middle = centroid(c);
@@ -64,8 +69,8 @@ void SeedCollector::test_separation(SeededComplex& result) const {
             const Vec3 inner = x + 0.02 * (middle - x);
             for (const double side : {1.0, -1.0}) {
                 const Vec3 place = inner + side * away * normal;
-                const std::uint32_t nearest = seeds.nearest(place);
-                if (nearest == SeedGrid::none || task_.wall.between(place, seeds.point(nearest))) {
+                const std::uint32_t nearest = seeds.nearest(place, reach);
+                if (nearest == SeedTree::none || task_.wall.between(place, seeds.point(nearest))) {
                     result.separated[t] = 0;
                 }
             }

@@ -12,6 +12,7 @@
 #include "tess/fault_complex.hpp"
 #include "tess/fault_cover.hpp"
 #include "tess/fault_wall.hpp"
+#include "tess/poll.hpp"
 #include "tess/size_field.hpp"
 
 namespace terratet {
@@ -25,6 +26,7 @@ struct SeedTask {
     std::uint32_t surface_count = 0;
     double width = 0;                 ///< ε at the full spacing; smaller in proportion where triangles are
     std::span<const Vec3> relaxed{};  ///< about an edge length round these nothing need be certified (exact mode)
+    Poll poll{};
 };
 
 struct SeededComplex {

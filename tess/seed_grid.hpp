@@ -51,13 +51,6 @@ class SeedGrid {
         visit_cells({centre[0] - 1, centre[1] - 1, centre[2] - 1}, {centre[0] + 1, centre[1] + 1, centre[2] + 1}, call);
     }
 
-    /// The same for a radius of any length.
-    template <class Visit>
-    void visit_within(const Vec3& p, double radius, const Visit& call) const {
-        const Vec3 reach{radius, radius, radius};
-        visit_cells(index(p - reach), index(p + reach), call);
-    }
-
     [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
     [[nodiscard]] double radius() const { return radius_; }
 

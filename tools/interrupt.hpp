@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Ctrl-C asks the running operation to stop at its next report of progress, so that it can clean up. A second one
-/// ends the program at once.
+/// Ctrl-C asks the running operation to stop at its next report of progress, so that it can clean up. Where none comes
+/// within 0.15 s, the program ends all the same, with the same message and exit code, and nothing of unfinished outputs
+/// remains. A second one ends the program at once.
 
 namespace terratet::tools {
 
@@ -11,5 +12,8 @@ namespace terratet::tools {
 void watch_for_interrupts();
 
 bool interrupted();
+
+/// True for the first who asks: the one to say that the program was interrupted.
+bool tell_interrupted();
 
 }  // namespace terratet::tools

@@ -33,6 +33,12 @@ double positive_length(const std::string& option, const std::string& text, doubl
     return value;
 }
 
+constexpr const char* automatic = "auto";
+
+double fault_spacing(const ModelArguments& a, double metres_per_unit) {
+    return a.fault_spacing == automatic ? 0 : positive_length("--fault-spacing", a.fault_spacing, metres_per_unit);
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -236,7 +242,11 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "HOW",
               "paired (default): two sheets of mirrored points; exact: faults are walls of the Voronoi cells",
               &a.fault_mode},
-             {{"fault-spacing"}, "LENGTH", "between a fault's points; by default --lmin", &a.fault_spacing},
+             {{"fault-spacing"},
+              "LENGTH",
+              "between a fault's points; by default --lmin; auto: less where faults run too close together for that, if "
+              "it can be afforded",
+              &a.fault_spacing},
              {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},
              {{"fault-snap"},
               "LENGTH",
@@ -277,7 +287,7 @@ void check_model_arguments(const ModelArguments& a) {
     density_mode(a.density);
     fault_mode(a.fault_mode);
     positive_length("--fault-snap", a.fault_snap, 1.0);
-    const double spacing = positive_length("--fault-spacing", a.fault_spacing, 1.0);
+    const double spacing = fault_spacing(a, 1.0);
     const double width = positive_length("--fault-width", a.fault_width, 1.0);
     if (spacing > 0 && width > spacing) {
         throw UsageError("--fault-width: the two sheets of a fault must be nearer to each other than --fault-spacing");
@@ -313,7 +323,8 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
     validate_given(options.criteria);
     options.density = density_mode(a.density);
-    options.faults.spacing = positive_length("--fault-spacing", a.fault_spacing, unit);
+    options.faults.spacing = fault_spacing(a, unit);
+    options.separate_faults = a.fault_spacing == automatic;
     options.faults.width = positive_length("--fault-width", a.fault_width, unit);
     options.faults.snap = positive_length("--fault-snap", a.fault_snap, unit);
     options.faults.mode = fault_mode(a.fault_mode);

@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
     }
     if (!model.faults.empty()) {
         const double spacing = model.fault_options.spacing > 0 ? model.fault_options.spacing : model.criteria.l_min;
-        add(!a.fault_spacing.empty(), "fault-spacing", spacing);
+        add(!a.fault_spacing.empty() && a.fault_spacing != "auto", "fault-spacing", spacing);
         add(!a.fault_width.empty(), "fault-width",
             model.fault_options.width > 0 ? model.fault_options.width : spacing / 4);
     }

@@ -89,7 +89,7 @@ int run_terratet(const std::vector<std::string>& arguments) {
     } catch (const InputError& error) {
         return fail(exit_input, error.what());
     } catch (const Cancelled&) {
-        return fail(exit_failed, "interrupted; nothing was written");
+        return tell_interrupted() ? fail(exit_failed, "interrupted; nothing was written") : exit_failed;
     } catch (const std::bad_alloc&) {
         return fail(exit_failed, "out of memory; a larger --lmin or --voxel-size needs less");
     } catch (const std::exception& error) {

@@ -1,87 +1,22 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Real faults: the SCEC Community Fault Model's western Transverse Ranges, Salton and Elsinore surfaces, 97 TSurf
-// files.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fstream>
+#include <ctime>
+#include <iostream>
 #include <map>
 #include <numbers>
 #include <sstream>
 
 #include "tess/fault_complex.hpp"
 #include "tests/tess/fault_cases.hpp"
+#include "tests/tess/scec.hpp"
 
 namespace terratet {
 namespace {
 
-/// As much of a TSurf as these files use; io has the real reader.
-Surface read_tsurf_file(const std::filesystem::path& path) {
-    Surface surface;
-    surface.name = path.stem().string();
-    surface.file = path.filename().string();
-    std::ifstream in(path);
-    std::map<long, std::uint32_t> place;
-    double up = 1;
-    for (std::string line; std::getline(in, line);) {
-        std::istringstream words(line);
-        std::string word;
-        words >> word;
-        if (word == "ZPOSITIVE") {
-            words >> word;
-            up = word == "Depth" ? -1 : 1;
-        } else if (word == "VRTX" || word == "PVRTX") {
-            long id = 0;
-            Vec3 p;
-            words >> id >> p.x >> p.y >> p.z;
-            place[id] = static_cast<std::uint32_t>(surface.vertices.size());
-            surface.vertices.push_back({p.x - 307200, p.y - 3788800, up * p.z});
-        } else if (word == "ATOM" || word == "PATOM") {
-            long id = 0;
-            long of = 0;
-            words >> id >> of;
-            place[id] = place.at(of);
-        } else if (word == "TRGL") {
-            long a = 0;
-            long b = 0;
-            long c = 0;
-            words >> a >> b >> c;
-            surface.triangles.push_back({place.at(a), place.at(b), place.at(c)});
-        }
-    }
-    return surface;
-}
-
-std::vector<Surface> scec_surfaces(const std::string& folder) {
-    std::vector<Surface> surfaces;
-    if (const auto path = testing::public_data(folder)) {
-        for (const auto& entry : std::filesystem::directory_iterator(*path)) {
-            if (entry.path().extension() == ".ts") {
-                surfaces.push_back(read_tsurf_file(entry.path()));
-            }
-        }
-    }
-    std::sort(surfaces.begin(), surfaces.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-    return surfaces;
-}
-
-std::vector<Surface> scec_surfaces() {
-    std::vector<Surface> surfaces = scec_surfaces("scec_cfm/native");
-    std::ranges::move(scec_surfaces("scec_cfm/alt"), std::back_inserter(surfaces));
-    std::ranges::sort(surfaces, {}, &Surface::name);
-    return surfaces;
-}
-
-Box3 box_of(const std::vector<Surface>& surfaces) {
-    Box3 box;
-    for (const Surface& surface : surfaces) {
-        for (const Vec3& p : surface.vertices) {
-            box.extend(p);
-        }
-    }
-    return box;
-}
+using testing::box_of;
+using testing::scec_surfaces;
 
 struct Tally {
     int used = 0;
@@ -217,6 +152,71 @@ TEST_CASE("F4: of 87 real faults with their alternative versions each is used, o
     CHECK(tally.overlapping >= 15);
     const Box3 hull = extent.grown(hull_margin({}, extent.diagonal() / 100));
     CHECK(testing::count_crossings(preparation.faults, hull, 2000, 1, 3).crossing == 0);
+}
+
+namespace {
+
+/// A fault and its neighbours, alternative versions among them.
+std::vector<Surface> group(std::vector<Surface> all, std::size_t number) {
+    const Vec3 middle = bounding_box(all[number * all.size() / 30].vertices).center();
+    std::ranges::stable_sort(all, {}, [&](const Surface& surface) {
+        return distance(bounding_box(surface.vertices).center(), middle);
+    });
+    all.resize(25 + number % 6);
+    return all;
+}
+
+/// Prepares the group and counts what crosses. Returns what came of it, a line of a table.
+std::string prepare_group(std::size_t number, FaultMode mode, double spacing) {
+    const std::vector<Surface> surfaces = group(scec_surfaces(), number);
+    const Box3 extent = box_of(surfaces);
+    FaultOptions options;
+    options.mode = mode;
+    INFO("group " << number << (mode == FaultMode::paired ? ", paired" : ", exact"));
+    const std::clock_t begin = std::clock();
+    const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, spacing, options);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    Tally tally;
+    check_accounts(surfaces, preparation, tally);
+    CHECK(tally.used > 0);
+    CHECK(testing::count_crossings(preparation.faults, extent.grown(hull_margin(options, spacing)), 1000, 1, 3)
+              .crossing == 0);
+    std::map<std::string, int> reasons;
+    for (const FaultAccount& account : preparation.accounts) {
+        if (!account.used) {
+            ++reasons[account.reason.substr(0, account.reason.find_first_of(":'(,"))];
+        }
+    }
+    std::ostringstream line;
+    line << "| " << number << " | " << (mode == FaultMode::paired ? "paired" : "exact") << " | "
+              << surfaces.size() << " | " << tally.triangles << " | " << seconds << " | " << tally.used << " |";
+    for (const auto& [reason, count] : reasons) {
+        line << " " << count << " " << reason << ";";
+    }
+    line << " |\n";
+    return line.str();
+}
+
+}  // namespace
+
+TEST_CASE("F1, F4: of real neighbours, alternatives among them, some are used and nothing crosses them") {
+    if (scec_surfaces().empty()) {
+        WARN("public data scec_cfm is absent");
+        return;
+    }
+    prepare_group(5, FaultMode::exact, 6000);
+    prepare_group(20, FaultMode::paired, 6000);
+}
+
+TEST_CASE("F1, F4: so it is of thirty groups of 25 to 30 at half the spacing", "[.][long]") {
+    if (scec_surfaces().empty()) {
+        WARN("public data scec_cfm is absent");
+        return;
+    }
+    for (std::size_t number = 0; number < 30; ++number) {
+        std::cout << prepare_group(number, FaultMode::paired, 3000) << std::flush;
+        std::cout << prepare_group(number, FaultMode::exact, 3000) << std::flush;
+    }
 }
 
 TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most of it certified") {

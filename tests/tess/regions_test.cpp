@@ -50,6 +50,24 @@ TEST_CASE("A region has the name that one of its points was given, also when fau
     CHECK(unnamed > 0);
 }
 
+TEST_CASE("A wall with a hole in it parts nothing, however small the hole") {
+    const auto regions = [](double from, double to, bool edge) {
+        testing::World world = split_world({});
+        Surface wall = testing::planar_fault("a", {150, 150, -100}, 0, 90, 500, 400, 10);
+        std::erase_if(wall.triangles, [&](const Triangle& t) {
+            const Vec3 middle = (wall.vertices[t[0]] + wall.vertices[t[1]] + wall.vertices[t[2]]) / 3;
+            return middle.y > from && middle.y < to && (edge ? middle.z < -120 : middle.z > -130 && middle.z < -70);
+        });
+        world.site.surfaces = {wall};
+        return testing::build_world(world).report.final.regions;
+    };
+    CHECK(regions(0, 0, false) == 2);
+    CHECK(regions(150, 210, false) == 1);  // ten cells wide
+    CHECK(regions(150, 180, false) == 1);  // the margins of its sides cover each other
+    CHECK(regions(150, 180, true) == 1);   // a slit from below
+    CHECK(regions(-90, -40, false) == 2);  // beyond the extent
+}
+
 TEST_CASE("A name that belongs to no region, or a region with two names, is a mistake") {
     using Catch::Matchers::Contains;
     CHECK_THROWS_AS(testing::build_world(split_world({{{290, 20, 50}, "sky"}})), UsageError);

@@ -3,8 +3,10 @@
 """Ctrl-C in the middle: one line, exit code 1, nothing left behind."""
 import json
 import os
+import random
 import signal
 import subprocess
+import time
 import unittest
 
 from terratet import PROGRAM, Case, twin_inputs
@@ -37,6 +39,50 @@ class Interrupt(Case):
         self.assertEqual(code, 1, lines)
         self.assertEqual(lines, ["terratet: interrupted; nothing was written\n"])
         self.assertEqual(os.listdir(self.folder), [])
+
+    def stop_after(self, seconds, *arguments):
+        """Sends SIGTERM then; returns how long the program took to end, or None when it had done so before."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        try:
+            process.wait(seconds)
+            process.stderr.close()
+            return None
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGTERM)
+        begin = time.monotonic()
+        said = process.communicate(timeout=30)[1]
+        took = time.monotonic() - begin
+        if process.returncode == -signal.SIGTERM:  # before it had begun
+            return None
+        self.assertIn(process.returncode, (0, 1), said)
+        if process.returncode == 1:
+            self.assertEqual(len(said.splitlines()), 1, said)
+            self.assertTrue(said.startswith("terratet: interrupted; "), said)
+        return took
+
+    def test_at_any_moment_it_stops_at_once_and_leaves_whole_files_or_none(self):
+        inputs = twin_inputs()
+        inputs[inputs.index("60m")] = "25m"
+        begin = time.monotonic()
+        self.succeed("build", *inputs, "-o", "twin.gpkg")
+        build_takes = time.monotonic() - begin
+        moments = random.Random(3)
+        stopped = 0
+        for command in (["convert", *inputs, "m.gpkg", "m.vtu", "m.gltf"], ["check", "twin.gpkg"],
+                        ["export", "twin.gpkg", "m.vdb", "m.csv", "--voxel-size", "8"]):
+            for _ in range(4):
+                took = self.stop_after(moments.uniform(0.02, build_takes), *command)
+                if took is not None:
+                    stopped += 1
+                    self.assertLess(took, 5)  # 0.3 s but for a busy machine
+                left = set(os.listdir(self.folder)) - {"twin.gpkg"}
+                self.assertLessEqual(left, {"m.gpkg", "m.vtu", "m.gltf", "m.vdb", "m.csv"}, command)
+                if "m.gpkg" in left:
+                    self.succeed("check", "m.gpkg")
+                for name in left:
+                    os.remove(self.folder / name)
+        self.assertGreater(stopped, 3)
 
 
 if __name__ == "__main__":

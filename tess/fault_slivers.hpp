@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: pairs of seeds moved a little, so that no four seeds make a sliver. Where four of them all but lie on a
+/// circle and in a plane, a cell without height hangs between the two ways to triangulate them, and nothing that
+/// refinement may insert comes near enough to break it up.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "tess/frame.hpp"
+#include "tess/geometry.hpp"
+#include "tess/poll.hpp"
+
+namespace terratet {
+
+struct MovablePair {
+    Vec3 plus;
+    Vec3 minus;
+    std::uint32_t owner = 0;
+    double along = 0;   ///< how far both may be moved along their sheet
+    double height = 0;  ///< by which part of it the height over the sheet may change
+};
+
+/// May the pair, of this number, be moved to these places? The places are snapped to the frame.
+using MayMove = std::function<bool(std::size_t pair, const Vec3& plus, const Vec3& minus)>;
+
+struct SliversMended {
+    std::size_t before = 0;  ///< cells between four seeds with an angle below a degree or little more, gaps' cells but for
+                             ///< those of one fault among them
+    std::size_t after = 0;
+    std::vector<char> moved;  ///< by pair
+};
+
+/// Moves pairs, one after the other, where that leaves fewer slivers, no farther than each may go from where it was.
+/// Looks at balls of at most `reach`: no larger one stays empty. Deterministic. About 1 ms a move.
+SliversMended mend_slivers(std::vector<MovablePair>& pairs, double reach, const Frame& frame, const MayMove& may_move,
+                           const Poll& poll);
+
+}  // namespace terratet

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: the nearest of many points of any density, by number.
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+class SeedTree {
+  public:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    /// \pre The points outlive this.
+    explicit SeedTree(std::span<const Vec3> points);
+
+    /// The nearest one that is nearer than `radius`, the first of equals; none when none is.
+    [[nodiscard]] std::uint32_t nearest(const Vec3& p, double radius) const;
+
+    [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
+
+  private:
+    struct Node {
+        Box3 box;
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
+        std::uint32_t right = 0;  ///< the second child; the first follows at once; 0: a leaf
+    };
+    void split(std::uint32_t begin, std::uint32_t end);
+
+    std::span<const Vec3> points_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace terratet

@@ -96,8 +96,8 @@ bool overlap(const Box3& box, const Vec3& a, const Vec3& b) {
 
 /// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells
 /// are connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
-/// They also are by gap cells that no sheet runs through, those beyond rims: a hole in a fault is open though its margin
-/// fills it.
+/// They also are by gap cells that no sheet runs through, those beyond rims: a hole in a fault is open though its
+/// margin fills it.
 class RegionLabels {
   public:
     RegionLabels(const Model& model, const TetMesh& mesh, const FaultProximity& faults, CellTable& table)
@@ -169,7 +169,8 @@ class RegionLabels {
         return cells;
     }
 
-    /// A gap cell within the extent, none of whose edges meets a sheet. Sheets end at the extent's faces, faults do not.
+    /// A gap cell within the extent, none of whose edges meets a sheet. Sheets end at the extent's faces, faults do
+    /// not.
     [[nodiscard]] bool lets_pass(std::uint32_t cell) {
         if (way_[cell] == Way::unknown) {
             const auto& v = mesh_.cells[cell];

@@ -184,8 +184,7 @@ struct LeakFinder::Impl {
                     const FaultProbe probe{x + side * beyond * protection * normals[t], side * normals[t], fault_of[t]};
                     bool there = false;
                     places.visit(probe.place, [&](std::uint32_t k) {
-                        there = there || (placed[k].fault == probe.fault &&
-                                          dot(placed[k].out, probe.out) > close_out &&
+                        there = there || (placed[k].fault == probe.fault && dot(placed[k].out, probe.out) > close_out &&
                                           distance(placed[k].place, probe.place) < close_probes * protection);
                     });
                     if (!there && hull.contains(probe.place) && !zone.contains(probe.place)) {
@@ -389,9 +388,7 @@ struct LeakFinder::Impl {
         for (std::size_t k = 0; k < v.size(); ++k) {
             const Vec3& here = sites[v[k]].position;
             if (std::none_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(k),
-                             [&](std::uint32_t i) {
-                                 return distance(sites[i].position, here) < 0.1 * probe_reach;
-                             }) &&
+                             [&](std::uint32_t i) { return distance(sites[i].position, here) < 0.1 * probe_reach; }) &&
                 probes.any_within(here, probe_reach, test)) {
                 return true;
             }
@@ -406,8 +403,7 @@ struct LeakFinder::Impl {
         }
         for (const std::uint32_t i : v) {
             const Vec3& from = sites[i].position;
-            const bool below =
-                dot(probe.place - from, probe.out) > beyond * faults[probe.fault].protection_radius;
+            const bool below = dot(probe.place - from, probe.out) > beyond * faults[probe.fault].protection_radius;
             if (sites[i].owner != nobody && below && crosses(probe.fault, from, probe.place)) {
                 return describe(i, probe.fault, probe.place, cell, leak);
             }

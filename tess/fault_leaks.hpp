@@ -74,7 +74,7 @@ class LeakFinder {
     [[nodiscard]] double distance_to_seed(const Vec3& p) const;
     [[nodiscard]] double distance_to_sheet(std::uint32_t fault, const Vec3& p) const;
     [[nodiscard]] double distance_to_others(std::uint32_t fault, const Vec3& p, double most) const;  ///< `most` at most
-    [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;            ///< by any sheet
+    [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;                                ///< by any sheet
     [[nodiscard]] Vec3 normal_at(std::uint32_t fault, const Vec3& place) const;  ///< \pre on its sheet
 
   private:

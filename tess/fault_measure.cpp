@@ -182,14 +182,18 @@ bool touch(const FaultMesh& a, const FaultMesh& b) {
     }
     Triangles triangles;
     for (const Triangle& t : a.triangles) {
-        const auto point = [&](std::uint32_t v) { return Kernel::Point_3(a.points[v].x, a.points[v].y, a.points[v].z); };
+        const auto point = [&](std::uint32_t v) {
+            return Kernel::Point_3(a.points[v].x, a.points[v].y, a.points[v].z);
+        };
         if (const Kernel::Triangle_3 own(point(t[0]), point(t[1]), point(t[2])); !own.is_degenerate()) {
             triangles.push_back(own);
         }
     }
     const Tree tree(triangles.cbegin(), triangles.cend());
     return std::ranges::any_of(b.triangles, [&](const Triangle& t) {
-        const auto point = [&](std::uint32_t v) { return Kernel::Point_3(b.points[v].x, b.points[v].y, b.points[v].z); };
+        const auto point = [&](std::uint32_t v) {
+            return Kernel::Point_3(b.points[v].x, b.points[v].y, b.points[v].z);
+        };
         const Kernel::Triangle_3 own(point(t[0]), point(t[1]), point(t[2]));
         return !own.is_degenerate() && tree.do_intersect(own);
     });

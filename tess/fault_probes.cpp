@@ -11,8 +11,7 @@ constexpr std::uint32_t leaf_size = 6;
 
 }  // namespace
 
-FaultProbes::FaultProbes(std::vector<FaultProbe> probes)
-    : probes_(std::move(probes)), retired_(probes_.size(), 0) {
+FaultProbes::FaultProbes(std::vector<FaultProbe> probes) : probes_(std::move(probes)), retired_(probes_.size(), 0) {
     if (!probes_.empty()) {
         split(0, static_cast<std::uint32_t>(probes_.size()));
     }

@@ -244,7 +244,8 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               &a.fault_mode},
              {{"fault-spacing"},
               "LENGTH",
-              "between a fault's points; by default --lmin; auto: less where faults run too close together for that, if "
+              "between a fault's points; by default --lmin; auto: less where faults run too close together for that, "
+              "if "
               "it can be afforded",
               &a.fault_spacing},
              {{"fault-width"}, "LENGTH", "between the two sheets; by default a quarter of the spacing", &a.fault_width},

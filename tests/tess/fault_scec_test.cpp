@@ -159,9 +159,8 @@ namespace {
 /// A fault and its neighbours, alternative versions among them.
 std::vector<Surface> group(std::vector<Surface> all, std::size_t number) {
     const Vec3 middle = bounding_box(all[number * all.size() / 30].vertices).center();
-    std::ranges::stable_sort(all, {}, [&](const Surface& surface) {
-        return distance(bounding_box(surface.vertices).center(), middle);
-    });
+    std::ranges::stable_sort(
+        all, {}, [&](const Surface& surface) { return distance(bounding_box(surface.vertices).center(), middle); });
     all.resize(25 + number % 6);
     return all;
 }
@@ -188,8 +187,8 @@ std::string prepare_group(std::size_t number, FaultMode mode, double spacing) {
         }
     }
     std::ostringstream line;
-    line << "| " << number << " | " << (mode == FaultMode::paired ? "paired" : "exact") << " | "
-              << surfaces.size() << " | " << tally.triangles << " | " << seconds << " | " << tally.used << " |";
+    line << "| " << number << " | " << (mode == FaultMode::paired ? "paired" : "exact") << " | " << surfaces.size()
+         << " | " << tally.triangles << " | " << seconds << " | " << tally.used << " |";
     for (const auto& [reason, count] : reasons) {
         line << " " << count << " " << reason << ";";
     }

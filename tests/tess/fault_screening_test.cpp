@@ -132,8 +132,8 @@ TEST_CASE("The spacing that separates faults is found for any distance, and keep
 }
 
 TEST_CASE("Surfaces that run together and meet are versions of one fault, at any spacing") {
-    const std::vector<Surface> surfaces = {
-        wall("F1", 0), testing::planar_fault("F2", {20, 0, 0}, 1, 90, 2900, 2900, 20000)};
+    const std::vector<Surface> surfaces = {wall("F1", 0),
+                                           testing::planar_fault("F2", {20, 0, 0}, 1, 90, 2900, 2900, 20000)};
     const FaultPreparation preparation = prepare_faults(surfaces, around_walls, {}, 1000);
     REQUIRE(preparation.faults.size() == 1);
     CHECK_THAT(preparation.accounts.at(1).reason, Contains("alternative versions of one fault"));

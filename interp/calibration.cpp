@@ -20,6 +20,8 @@ constexpr std::size_t levels_max = 10;
 constexpr std::size_t samples_a_level = 100;
 constexpr std::size_t boreholes_a_level = 5;
 constexpr double relative_max = 20;  // and not below its inverse
+constexpr double factor_max = 1e12;
+constexpr int digits = 5;  // of what is kept
 const std::string heading = "uncertainty";
 
 /// Student's t over the normal's quantile, for 68 and for 95 %, by degrees of freedom from 1.
@@ -85,10 +87,10 @@ std::vector<Calibration::Level> levels_of(std::span<const JudgedError> judged, s
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t begin = k * judged.size() / count;
         const auto part = judged.subspan(begin, (k + 1) * judged.size() / count - begin);
-        const double estimate = part[part.size() / 2].estimate;
-        const double relative = quantile(ratios_of(part), share_68) / usual;
+        const double estimate = rounded(part[part.size() / 2].estimate, 8);
+        const double relative = std::clamp(quantile(ratios_of(part), share_68) / usual, 1 / relative_max, relative_max);
         if (levels.empty() || estimate > levels.back().estimate) {
-            levels.push_back({estimate, std::clamp(relative, 1 / relative_max, relative_max)});
+            levels.push_back({estimate, rounded(relative, digits)});
         }
     }
     return levels;
@@ -109,7 +111,8 @@ std::vector<Calibration::Level> parse_levels(const std::string& text) {
         const std::string pair = text.substr(begin, end - begin);
         const std::size_t slash = std::min(pair.find('/'), pair.size());
         const double estimate = in_range(pair.substr(0, slash), -1e300, 1e300);
-        const double relative = in_range(pair.substr(std::min(slash + 1, pair.size())), 1e-6, 1e6);
+        const double relative =
+            in_range(pair.substr(std::min(slash + 1, pair.size())), 0.9 / relative_max, 1.1 * relative_max);
         if (levels.size() >= levels_max || (!levels.empty() && estimate <= levels.back().estimate)) {
             throw UsageError("the levels '" + text + "' are too many or do not ascend");
         }
@@ -163,9 +166,9 @@ Calibration parse_calibration(const std::string& text) {
         const std::string key = part.substr(0, equals);
         const std::string value = part.substr(std::min(equals + 1, part.size()));
         if (key == "sd") {
-            out.factor_sd = in_range(value, 0, 1e300);
+            out.factor_sd = in_range(value, 0, factor_max);
         } else if (key == "half_width") {
-            out.factor_95 = in_range(value, 0, 1e300);
+            out.factor_95 = in_range(value, 0, factor_max);
         } else if (key == "boreholes") {
             out.boreholes = static_cast<std::size_t>(in_range(value, 0, 1e15));
         } else if (key == "samples") {
@@ -183,7 +186,7 @@ Calibration parse_calibration(const std::string& text) {
 Calibration calibrate(std::span<const JudgedError> judged, std::size_t boreholes) {
     std::vector<JudgedError> telling;
     std::copy_if(judged.begin(), judged.end(), std::back_inserter(telling), [](const JudgedError& one) {
-        return std::isfinite(one.estimate) && std::isfinite(one.error) && one.deviation > 0;
+        return std::isfinite(one.estimate) && one.deviation > 0 && ratio(one) <= factor_max;
     });
     Calibration out;
     out.boreholes = boreholes;
@@ -206,6 +209,8 @@ Calibration calibrate(std::span<const JudgedError> judged, std::size_t boreholes
     out.factor_sd = balanced(ratios, std::min(one, 1.0), two) * widened(widened_68, 1, boreholes);
     out.factor_95 = quantile(ratios, two) * widened(widened_95, normal_95, boreholes);
     out.factor_sd += unseen * std::max(out.factor_95 / normal_95 - out.factor_sd, 0.0);
+    out.factor_sd = rounded(std::min(out.factor_sd, factor_max), digits);
+    out.factor_95 = rounded(std::min(out.factor_95, factor_max), digits);
     return out;
 }
 

@@ -20,4 +20,12 @@ std::string shortest(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+double rounded(double value, int digits) {
+    std::array<char, 32> text;
+    const char* end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1).ptr;
+    std::from_chars(text.data(), end, value);
+    return value;
+}
+
 }  // namespace terratet

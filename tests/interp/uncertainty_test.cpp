@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "estimation.hpp"
+#include "interp/local_error.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"
 
@@ -180,4 +181,31 @@ TEST_CASE("Factors found are kept with the estimator and taken up again; other e
         CHECK(same_bits(first.deviation, anew.deviation));
     }
     CHECK_FALSE(ModelEstimator(model, no_faults(), parse_estimator("idw")).plan().calibrations.contains("v"));
+}
+
+TEST_CASE("Rates of all folds but one have not seen that fold's errors; those of all have") {
+    const auto sites = borehole_sites(10, 25, 203);
+    std::vector<std::uint32_t> fold_of(sites.size());
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        fold_of[i] = static_cast<std::uint32_t>(i / 25);
+    }
+    const std::vector<double> values(sites.size(), 0);
+    const auto learnt = [&](double of_fold_3) {
+        LocalError local(sites, values, fold_of);
+        Random random(204);
+        for (std::uint32_t i = 0; i < sites.size(); ++i) {
+            Weights nearest_other;
+            nearest_other.terms.push_back({(i + 25) % 250, 1.0});
+            const double error = random(-1, 1);
+            local.add(i, fold_of[i] == 3 ? of_fold_3 * error : error, nearest_other);
+        }
+        local.pool(nullptr);
+        return std::pair(local.without(3), local.without(4));
+    };
+    const auto usual = learnt(1);
+    const auto wild = learnt(1000);
+    CHECK(same_bits(usual.first.near, wild.first.near));
+    CHECK(same_bits(usual.first.variance, wild.first.variance));
+    CHECK_FALSE(same_bits(usual.second.near, wild.second.near));
+    CHECK(std::is_sorted(wild.second.variance.begin(), wild.second.variance.end()));
 }

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "interp/error_study.hpp"
+#include "interp/extrapolation.hpp"
 #include "interp/folds.hpp"
 #include "interp/learned_errors.hpp"
 #include "interp/variogram_fit.hpp"
@@ -130,13 +131,20 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
     const bool has_variance = make(folds.front(), 0)->has_variance();
     ErrorStudy study(sites, out.measured, groups, has_variance);
     std::vector<Weights> left_out(has_variance ? 0 : sites.size());
+    std::vector<double> slope_variance(sites.size(), 0);
+    std::vector<FoldColumn> columns;
+    if (kind.kind == Kind::continuous) {
+        columns.push_back({out.measured, traits_of(out.measured, reach_of(out.estimator, sites, boreholes))});
+    }
     out.estimated.resize(sites.size());
     out.deviation.assign(sites.size(), missing);
     out.half_width.assign(sites.size(), missing);
-    for_each_left_out(sites, folds, make, [&](std::uint32_t i, const Weights& weights) {
-        out.estimated[i] = estimate_from(weights.terms, out.measured, kind.kind);
+    for_each_left_out(sites, folds, make, columns, [&](std::uint32_t i, const Weights& weights, const auto& added) {
+        const MadeUp slopes = added.empty() ? MadeUp{} : added.front();
+        out.estimated[i] = estimate_from(weights.terms, out.measured, kind.kind) + slopes.value;
         out.fallbacks += weights.fallback ? 1 : 0;
         study.add(i, out.estimated[i], weights);
+        slope_variance[i] = slopes.variance;
         if (!has_variance) {
             left_out[i] = weights;
         }
@@ -149,8 +157,9 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
     out.calibration = study.calibration();
     const auto stated = study.stated();
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        out.deviation[i] = stated[i].deviation;
-        out.half_width[i] = stated[i].half_width;
+        const auto [deviation, half_width] = widened(stated[i], slope_variance[i]);
+        out.deviation[i] = deviation;
+        out.half_width[i] = half_width;
     }
     return out;
 }

@@ -75,11 +75,6 @@ Neighbourhood neighbourhood_of(const EstimatorSpec& spec) {
             static_cast<std::uint32_t>(value_of(spec, "per_borehole"))};
 }
 
-Anisotropy anisotropy_of(const EstimatorSpec& spec) {
-    return {value_of(spec, "azimuth"), value_of(spec, "dip"), value_of(spec, "roll"), value_of(spec, "ratio2"),
-            value_of(spec, "ratio3")};
-}
-
 std::optional<double> given(const EstimatorSpec& spec, const std::string& key) {
     const auto found = spec.options.find(key);
     return found == spec.options.end() ? std::nullopt : number_in(found->second);
@@ -103,6 +98,10 @@ KrigingOptions kriging_options(const EstimatorSpec& spec) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Slopes> Estimator::slopes(std::vector<std::span<const double>>) const {
+    return nullptr;
+}
 
 std::string EstimatorSpec::to_string() const {
     std::string text = name;
@@ -140,6 +139,15 @@ EstimatorSpec parse_estimator(const std::string& text) {
         at = end;
     }
     return spec;
+}
+
+Anisotropy anisotropy_of(const EstimatorSpec& spec) {
+    return {value_of(spec, "azimuth"), value_of(spec, "dip"), value_of(spec, "roll"), value_of(spec, "ratio2"),
+            value_of(spec, "ratio3")};
+}
+
+std::optional<double> range_of(const EstimatorSpec& spec) {
+    return spec.name == "kriging" ? std::optional(kriging_options(spec).variogram.practical_range()) : std::nullopt;
 }
 
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,

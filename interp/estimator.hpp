@@ -13,11 +13,13 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "interp/anisotropy.hpp"
 #include "interp/calibration.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/property.hpp"
@@ -62,13 +64,28 @@ struct SiteWeight {
 };
 
 /// An estimate before values are put in. Weights sum to 1 within rounding, or there are none: no value here.
+/// Lengths are in the coordinates of the method's anisotropy.
 struct Weights {
     std::vector<SiteWeight> terms;
-    double extrapolation = 0;  ///< share of the estimate that lies beyond the sites' reach, 0…1
-    bool fallback = false;     ///< computed by a slower or simpler way than the method's own
+    double beyond = 0;  ///< what sites have no part in, 0…1: the ghosts' share, kriging's weight of the mean
+    double hidden = 0;  ///< share that ghosts and sites behind faults had before the rest was scaled to sum to 1
+    Vec3 lever{};       ///< from the terms' weighted centroid to the query, of a method that makes up for it by
+                        ///< slopes (Estimator::slopes); 0 where nothing is hidden
+    std::vector<SiteWeight> slope_terms;  ///< whose slopes count along the lever; empty: the terms
+    double distance = std::numeric_limits<double>::infinity();  ///< to the nearest site that can be seen
+    bool fallback = false;  ///< computed by a slower or simpler way than the method's own
     double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the estimate's error in the scale's unit
                                                                  ///< squared; NaN where the method knows none
+
+    /// As new, but for the lists' memory.
+    void clear() {
+        terms.clear();
+        slope_terms.clear();
+        *this = Weights{.terms = std::move(terms), .slope_terms = std::move(slope_terms)};
+    }
 };
+
+class Slopes;
 
 class Estimator {
   public:
@@ -76,6 +93,10 @@ class Estimator {
 
     /// Weights at each query, out[i] for queries[i]. Const, reentrant, and each result independent of the others.
     virtual void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const = 0;
+
+    /// Of values at its sites, a span for each column, what lies along the lever: slopes.hpp. Null for a method whose
+    /// weights have none. The estimator and the values must outlive it.
+    [[nodiscard]] virtual std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const;
 
     /// Do its weights come with a variance of their own?
     [[nodiscard]] virtual bool has_variance() const { return false; }
@@ -88,6 +109,13 @@ class Estimator {
 ///                  take; empty: all loose
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
                                           const FaultProximity* faults, std::vector<std::int32_t> boreholes = {});
+
+/// Its options azimuth, dip, roll, ratio2 and ratio3.
+Anisotropy anisotropy_of(const EstimatorSpec& spec);
+
+/// The distance over which its variogram's samples tell something (Variogram::practical_range); none without one.
+/// \pre `spec` lacks nothing
+std::optional<double> range_of(const EstimatorSpec& spec);
 
 /// Does it leave a variogram's parameters to be fitted?
 bool needs_values(const EstimatorSpec& spec);

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <map>
 
+#include "interp/extrapolation.hpp"
 #include "interp/morton.hpp"
 
 namespace terratet {
@@ -28,6 +29,26 @@ std::vector<Fold> blocks(std::span<const Vec3> all, const Fold& loose, std::size
         folds[k * count / order.size()].push_back(loose[order[k]]);
     }
     return folds;
+}
+
+/// What the kept sites' slopes add to estimates from them.
+void add_slopes(const Estimator& estimator, std::span<const FoldColumn> columns, const Fold& kept,
+                const std::vector<Weights>& weights, std::vector<MadeUp>& added) {
+    std::vector<std::vector<double>> some(columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        for (const std::uint32_t i : kept) {
+            some[c].push_back(columns[c].scaled[i]);
+        }
+    }
+    const auto slopes = estimator.slopes({some.begin(), some.end()});
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const auto& traits = columns[c].traits;
+            added[k * columns.size() + c] =
+                made_up(weighted_mean(weights[k].terms, some[c]), weights[k],
+                        extrapolation_at(weights[k].distance, traits.reach), slopes.get(), c, traits);
+        }
+    }
 }
 
 }  // namespace
@@ -70,22 +91,20 @@ std::vector<Fold> folds_of(const Samples& samples, std::span<const std::uint32_t
     return max_folds > 0 ? shared(std::move(folds), max_folds) : folds;
 }
 
-double weighted_mean(std::span<const SiteWeight> terms, std::span<const double> values) {
-    double sum = 0;
-    for (const auto& [site, weight] : terms) {
-        sum += weight * values[site];
-    }
-    return sum;
-}
-
-void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
-                       const std::function<void(std::uint32_t site, const Weights& weights)>& visit) {
+void for_each_left_out(
+    std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
+    std::span<const FoldColumn> columns,
+    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit) {
     std::vector<std::uint32_t> fold_of(sites.size());
     for (std::uint32_t f = 0; f < folds.size(); ++f) {
         for (const std::uint32_t i : folds[f]) {
             fold_of[i] = f;
         }
     }
+    struct Result {
+        std::vector<Weights> weights;
+        std::vector<MadeUp> added;  ///< of each query, by column
+    };
     const auto leave_out = [&](std::uint32_t f) {
         std::vector<std::uint32_t> kept;
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
@@ -97,27 +116,31 @@ void for_each_left_out(std::span<const Vec3> sites, const std::vector<Fold>& fol
         for (const std::uint32_t i : folds[f]) {
             queries.push_back({sites[i], -1, 0});
         }
-        std::vector<Weights> weights(queries.size());
-        if (!kept.empty()) {
-            make(kept, f)->weights(queries, weights);
+        Result result{std::vector<Weights>(queries.size()), std::vector<MadeUp>(queries.size() * columns.size())};
+        if (kept.empty()) {
+            return result;
         }
-        for (auto& result : weights) {
-            for (auto& term : result.terms) {
+        const auto estimator = make(kept, f);
+        estimator->weights(queries, result.weights);
+        add_slopes(*estimator, columns, kept, result.weights, result.added);
+        for (auto& weights : result.weights) {
+            for (auto& term : weights.terms) {
                 term.site = kept[term.site];
             }
         }
-        return weights;
+        return result;
     };
     // Some folds at a time, so that their weights do not pile up.
     constexpr std::uint32_t at_a_time = 32;
     const auto count = static_cast<std::uint32_t>(folds.size());
     for (std::uint32_t begin = 0; begin < count; begin += at_a_time) {
-        std::vector<std::vector<Weights>> results(std::min(at_a_time, count - begin));
+        std::vector<Result> results(std::min(at_a_time, count - begin));
         tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(results.size()),
                           [&](std::uint32_t k) { results[k] = leave_out(begin + k); });
         for (std::uint32_t k = 0; k < results.size(); ++k) {
-            for (std::size_t i = 0; i < results[k].size(); ++i) {
-                visit(folds[begin + k][i], results[k][i]);
+            const auto& [weights, added] = results[k];
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                visit(folds[begin + k][i], weights[i], std::span(added).subspan(i * columns.size(), columns.size()));
             }
         }
     }

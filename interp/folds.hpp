@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "interp/estimator.hpp"
+#include "interp/linear_precision.hpp"
 #include "tess/samples.hpp"
 
 namespace terratet {
@@ -34,14 +35,18 @@ std::vector<std::vector<std::uint32_t>> shared(std::vector<std::vector<std::uint
 using PartialEstimator =
     std::function<std::unique_ptr<Estimator>(std::span<const std::uint32_t> kept, std::uint32_t fold)>;
 
-/// Σ wz.
-double weighted_mean(std::span<const SiteWeight> terms, std::span<const double> values);
+/// A property's values at all sites.
+struct FoldColumn {
+    std::span<const double> scaled;
+    ColumnTraits traits;
+};
 
-/// Calls `visit` with each site and its weights from the sites of all other folds, one at a time, fold by fold; terms
-/// name sites as `sites` does. No terms: the others give no value there. Costs one estimator per fold;
-/// folds run in parallel, `make` must stand that.
-void for_each_left_out(std::span<const Vec3> sites, const std::vector<std::vector<std::uint32_t>>& folds,
-                       const PartialEstimator& make,
-                       const std::function<void(std::uint32_t site, const Weights& weights)>& visit);
+/// Calls `visit` with each site, its weights from the sites of all other folds and for each column what slopes add to
+/// the weighted mean, one at a time, fold by fold; terms name sites as `sites` does. No terms: the others give no value
+/// there. Costs one estimator per fold; folds run in parallel, `make` must stand that.
+void for_each_left_out(
+    std::span<const Vec3> sites, const std::vector<std::vector<std::uint32_t>>& folds, const PartialEstimator& make,
+    std::span<const FoldColumn> columns,
+    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit);
 
 }  // namespace terratet

@@ -39,10 +39,9 @@ void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Wei
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index_.neighbourhood(queries[i], options_.neighbourhood, near);
-            out[i].terms.clear();
-            out[i].extrapolation = 0;
-            out[i].fallback = false;
+            out[i].clear();
             if (!near.empty()) {
+                out[i].distance = std::sqrt(near.front().squared_distance);
                 weigh(near, options_.power, out[i].terms);
             }
         }

@@ -42,13 +42,11 @@ void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
     const double variance = options_.variogram.nugget + options_.variogram.sill;
     const auto estimate = [&](const ValueQuery& query, Workspace& work, Weights& result) {
         index_.neighbourhood(query, options_.neighbourhood, work.near);
-        result.terms.clear();
-        result.extrapolation = 0;
-        result.fallback = false;
-        result.variance = std::numeric_limits<double>::quiet_NaN();
+        result.clear();
         if (work.near.empty()) {
             return;
         }
+        result.distance = std::sqrt(work.near.front().squared_distance);
         if (work.near.front().squared_distance == 0) {
             result.terms.push_back({work.near.front().site, 1.0});
             result.variance = 0;
@@ -74,7 +72,7 @@ void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
         KrigingSystem::Result solved;
         if (!work.system.solve(index_.metric()(query.position), work.offsets, work.weights, solved)) {
             by_inverse_squares(work.near, result.terms);
-            result.extrapolation = 1;
+            result.beyond = 1;
             result.fallback = true;
             result.variance = variance;
             return;
@@ -82,7 +80,7 @@ void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
         for (std::size_t k = 0; k < work.neighbours.size(); ++k) {
             result.terms.push_back({work.neighbours[k], work.weights[k]});
         }
-        result.extrapolation = solved.mean_share;
+        result.beyond = solved.mean_share;
         result.fallback = solved.fallback;
         result.variance = variance * solved.variance;
     };

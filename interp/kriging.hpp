@@ -6,7 +6,7 @@
 /// unknown constant mean) or universal (an unknown linear trend). The variance is the kriging variance of a new
 /// measurement, nugget included; on a site 0, since the site's value comes back.
 ///
-/// The extrapolation is the weight of the mean: an estimate is Σλz + (1 − Σλ)·m with the weights λ of simple kriging,
+/// Weights::beyond is the weight of the mean: an estimate is Σλz + (1 − Σλ)·m with the weights λ of simple kriging,
 /// and beyond the variogram's range from all samples nothing but the mean m is left.
 ///
 /// Systems that can't be solved as they are (nearly singular; a drift that collinear samples don't determine) are

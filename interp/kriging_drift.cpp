@@ -75,7 +75,7 @@ std::string better_drift(const EstimatorSpec& open, std::span<const Vec3> all_si
                 fitted_estimator(spec, some, known, holes, Kind::continuous, faults, samples_of_fold_fit);
             return make_estimator(fitted, std::move(some), faults, std::move(holes));
         };
-        for_each_left_out(sites, groups, make, [&](std::uint32_t site, const Weights& weights) {
+        for_each_left_out(sites, groups, make, {}, [&](std::uint32_t site, const Weights& weights, const auto&) {
             if (!weights.terms.empty()) {
                 const double error = weighted_mean(weights.terms, values) - values[site];
                 square[linear] += error * error;

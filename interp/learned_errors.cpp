@@ -38,10 +38,15 @@ std::vector<Weights> leave_out(const ErrorTask& task, const std::vector<std::vec
     };
     std::vector<Weights> weights(task.sites.size());
     const std::size_t step = (task.sites.size() + judged_max - 1) / judged_max;
-    for_each_left_out(task.sites, folds, make, [&](std::uint32_t site, const Weights& left_out) {
+    std::vector<FoldColumn> columns;
+    for (const auto& column : task.columns) {
+        columns.push_back({column.scaled, column.traits});
+    }
+    for_each_left_out(task.sites, folds, make, columns, [&](std::uint32_t site, const auto& left_out, auto added) {
         for (std::size_t c = 0; c < studies.size(); ++c) {
             if (studies[c]) {
-                studies[c]->add(site, weighted_mean(left_out.terms, task.columns[c].scaled), left_out);
+                const double plain = weighted_mean(left_out.terms, task.columns[c].scaled);
+                studies[c]->add(site, plain + added[c].value, left_out);
             }
         }
         if (site % step == 0) {

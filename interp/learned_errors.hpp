@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interp/calibration.hpp"
+#include "interp/linear_precision.hpp"
 #include "interp/local_error.hpp"
 #include "tess/samples.hpp"
 
@@ -29,6 +30,7 @@ struct ErrorTask {
         std::span<const double> scaled;  ///< at the sites
         bool continuous;                 ///< of a category nothing is learnt
         const Calibration* known;        ///< found earlier, to be kept; null: to be found
+        ColumnTraits traits;
     };
 
     EstimatorSpec spec;  ///< as fitted to all sites

@@ -7,6 +7,7 @@
 #include "interp/cavity.hpp"
 #include "interp/exact_volumes.hpp"
 #include "interp/query_order.hpp"
+#include "interp/slopes.hpp"
 
 namespace terratet {
 namespace {
@@ -63,6 +64,10 @@ void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weigh
             sites_.number_as_given(out[i]);
         }
     });
+}
+
+std::shared_ptr<const Slopes> LinearInCells::slopes(std::vector<std::span<const double>> columns) const {
+    return std::make_shared<const Slopes>(sites_, std::move(columns));
 }
 
 void LinearInCells::estimate(const Vec3& place, std::int32_t& start, Weights& out) const {

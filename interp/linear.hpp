@@ -6,7 +6,7 @@
 /// query in the cell that contains it. Continuous, with kinks at the facets; linear fields are reproduced inside the
 /// hull.
 ///
-/// Ghosts, extrapolation, faults and fallbacks as in natural_neighbour.hpp; so there are at most four terms, and where
+/// Ghosts, faults, slopes and fallbacks as in natural_neighbour.hpp; so there are at most four terms, and where
 /// all four samples are hidden the nearest visible one counts. About 1 µs a query; ~750 bytes a site.
 
 #include "interp/estimator.hpp"
@@ -20,6 +20,7 @@ class LinearInCells final : public Estimator {
     LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
+    [[nodiscard]] std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const override;
 
   private:
     void estimate(const Vec3& place, std::int32_t& start, Weights& out) const;

@@ -26,12 +26,13 @@ double variance_of(std::span<const double> values) {
     return n > 0 ? sum / static_cast<double>(n) : 0;
 }
 
-double nearest_distance(std::span<const Vec3> sites, const Vec3& place, std::span<const SiteWeight> terms) {
+/// To the nearest site that is used; what is hidden counts as if it were the lever farther away.
+double distance_to_used(std::span<const Vec3> sites, const Vec3& place, const Weights& weights) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [site, weight] : terms) {
+    for (const auto& [site, weight] : weights.terms) {
         nearest = std::min(nearest, squared_distance(place, sites[site]));
     }
-    return std::sqrt(nearest);
+    return std::sqrt(nearest) + weights.hidden * length(weights.lever);
 }
 
 constexpr std::uint32_t no_fold = std::numeric_limits<std::uint32_t>::max();
@@ -98,7 +99,7 @@ void LocalError::add(std::uint32_t site, double error, const Weights& left_out) 
         return;
     }
     squared_error_[site] = error * error;
-    distance_[site] = nearest_distance(sites_, sites_[site], left_out.terms);
+    distance_[site] = distance_to_used(sites_, sites_[site], left_out);
 }
 
 void LocalError::pool(const FaultProximity* faults, std::size_t count) {
@@ -216,7 +217,7 @@ double LocalError::standard_deviation(const Vec3& place, const Weights& weights,
     if (total == 0) {
         return unknown;
     }
-    const double away = nearest_distance(sites_, place, weights.terms);
+    const double away = distance_to_used(sites_, place, weights);
     return std::sqrt(std::min(profile(rates, away) * sum / total, largest_));
 }
 

@@ -4,7 +4,8 @@
 /// \file
 /// A standard deviation for methods that know none, from leaving boreholes out.
 ///
-/// Leaving out sample i with its borehole gives an error eᵢ at a place dᵢ away from the nearest sample that was used.
+/// Leaving out sample i with its borehole gives an error eᵢ at a place dᵢ away from the nearest sample that was used;
+/// where a part of the weights is hidden (Weights::hidden), farther by that part of the lever.
 /// How errors grow with that distance is a profile v(d): their mean squares in up to ten classes of distance, made to
 /// rise, straight lines between, from 0 on a sample. How large they are nearby is a rate, eᵢ²/v(dᵢ) averaged over the
 /// 32 nearest visible samples; half of it counts, and half of the mean of all, since 32 errors of a borehole or two say

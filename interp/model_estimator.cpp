@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "interp/extrapolation.hpp"
 #include "interp/learned_errors.hpp"
+#include "interp/linear_precision.hpp"
 #include "interp/query_order.hpp"
 
 namespace terratet {
@@ -22,6 +24,7 @@ struct Column {
     std::size_t property;
     std::vector<double> measured;
     std::vector<double> scaled;
+    ColumnTraits traits;
     std::optional<LearnedErrors> errors;
 };
 
@@ -32,10 +35,11 @@ struct Group {
     std::vector<Vec3> sites;
     std::vector<Column> columns;
     std::unique_ptr<Estimator> estimator;
+    std::shared_ptr<const Slopes> slopes;  ///< by column
 };
 
 Column column_of(const Model& model, std::size_t p, const std::vector<std::uint32_t>& samples) {
-    Column column{p, {}, {}, {}};
+    Column column{p, {}, {}, {}, {}};
     for (const std::uint32_t s : samples) {
         column.measured.push_back(model.samples.values[p][s]);
         column.scaled.push_back(to_scale(model.properties[p], column.measured.back()));
@@ -77,6 +81,14 @@ EstimatorSpec fitted_for(const Model& model, const Column& column, std::span<con
     return fitted;
 }
 
+std::shared_ptr<const Slopes> slopes_of(const Group& group) {
+    std::vector<std::span<const double>> columns;
+    for (const auto& column : group.columns) {
+        columns.emplace_back(column.scaled);
+    }
+    return group.estimator->slopes(std::move(columns));
+}
+
 /// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
 /// values.
 std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, EstimatorPlan& plan) {
@@ -96,9 +108,14 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
     std::vector<Group> out;
     for (auto& [key, group] : groups) {
         group.sites = picked(model.samples.positions, group.samples);
-        group.estimator =
-            make_estimator(group.spec, group.sites, &faults, picked(model.samples.borehole, group.samples));
+        const auto boreholes = picked(model.samples.borehole, group.samples);
+        group.estimator = make_estimator(group.spec, group.sites, &faults, boreholes);
+        const double reach = reach_of(group.spec, group.sites, boreholes);
+        for (auto& column : group.columns) {
+            column.traits = traits_of(column.scaled, reach);
+        }
         out.push_back(std::move(group));
+        out.back().slopes = slopes_of(out.back());
     }
     return out;
 }
@@ -112,7 +129,7 @@ void learn_group(Group& group, const Model& model, const FaultProximity& faults,
         const Property& property = model.properties[column.property];
         const auto known = asked.calibrations.find(property.name);
         task.columns.push_back({column.scaled, property.kind == Kind::continuous,
-                                known == asked.calibrations.end() ? nullptr : &known->second});
+                                known == asked.calibrations.end() ? nullptr : &known->second, column.traits});
     }
     if (group.columns.size() == 1 && task.columns.front().continuous && task.columns.front().known == nullptr) {
         const Column& column = group.columns.front();
@@ -145,21 +162,28 @@ double heaviest_class(const std::vector<SiteWeight>& terms, const Column& column
         ->first;
 }
 
-double estimate(const Property& property, const std::vector<SiteWeight>& terms, const Column& column) {
+struct Estimate {
+    double value = missing;
+    double slope_variance = 0;
+};
+
+/// Of the group's c-th column.
+Estimate estimate(const Property& property, const Weights& weights, const Group& group, std::size_t c) {
+    const auto& terms = weights.terms;
+    const Column& column = group.columns[c];
     if (terms.empty()) {
-        return missing;
-    }
-    if (terms.size() == 1) {
-        return column.measured[terms.front().site];  // as measured, not by way of its logarithm
+        return {};
     }
     if (property.kind == Kind::categorical) {
-        return heaviest_class(terms, column);
+        return {heaviest_class(terms, column), 0};
     }
-    double sum = 0;
-    for (const auto& [site, weight] : terms) {
-        sum += weight * column.scaled[site];
+    const double plain = weighted_mean(terms, column.scaled);
+    const auto added = made_up(plain, weights, extrapolation_at(weights.distance, column.traits.reach),
+                               group.slopes.get(), c, column.traits);
+    if (terms.size() == 1 && added.value == 0) {
+        return {column.measured[terms.front().site], added.variance};  // as measured, not by way of its logarithm
     }
-    return from_scale(property, sum);
+    return {from_scale(property, plain + added.value), added.variance};
 }
 
 /// Sets query i's probabilities and entropy.
@@ -248,13 +272,16 @@ struct ModelEstimator::Impl {
         for (const auto& group : groups) {
             group.estimator->weights(queries, weights);
             for (std::size_t k = 0; k < queries.size(); ++k) {
-                if (!weights[k].terms.empty()) {
-                    extrapolation[k] = std::max(extrapolation[k], weights[k].extrapolation);
-                }
                 fallback[k] |= static_cast<std::uint8_t>(weights[k].fallback);
-                for (const auto& column : group.columns) {
+                if (weights[k].terms.empty()) {
+                    continue;
+                }
+                for (std::size_t c = 0; c < group.columns.size(); ++c) {
+                    const Column& column = group.columns[c];
+                    extrapolation[k] =
+                        std::max(extrapolation[k], extrapolation_at(weights[k].distance, column.traits.reach));
                     batch.values[column.property][place(k)] =
-                        estimate(model.properties[column.property], weights[k].terms, column);
+                        estimate(model.properties[column.property], weights[k], group, c).value;
                 }
             }
         }
@@ -278,24 +305,27 @@ struct ModelEstimator::Impl {
                 if (weights[k].terms.empty()) {
                     continue;
                 }
-                for (const auto& column : group.columns) {
-                    set_estimate(column, queries[k].position, weights[k], place(k), out[column.property]);
+                for (std::size_t c = 0; c < group.columns.size(); ++c) {
+                    set_estimate(group, c, queries[k].position, weights[k], place(k), out[group.columns[c].property]);
                 }
             }
         }
         count_fallbacks(fallback);
     }
 
-    void set_estimate(const Column& column, const Vec3& position, const Weights& weights, std::size_t i,
+    void set_estimate(const Group& group, std::size_t c, const Vec3& position, const Weights& weights, std::size_t i,
                       PropertyEstimates& out) const {
+        const Column& column = group.columns[c];
         const Property& property = model.properties[column.property];
-        out.value[i] = estimate(property, weights.terms, column);
-        out.extrapolation[i] = weights.extrapolation;
+        const auto [value, slope_variance] = estimate(property, weights, group, c);
+        out.value[i] = value;
+        out.extrapolation[i] = extrapolation_at(weights.distance, column.traits.reach);
         out.samples[i] = static_cast<std::uint32_t>(weights.terms.size());
         if (property.kind == Kind::categorical) {
             set_probabilities(weights.terms, column, i, out);
         } else if (column.errors) {
-            const auto [deviation, half_width] = column.errors->of(position, weights, to_scale(property, out.value[i]));
+            const auto [deviation, half_width] =
+                widened(column.errors->of(position, weights, to_scale(property, value)), slope_variance);
             out.deviation[i] = deviation;
             out.half_width[i] = half_width;
         }

@@ -12,6 +12,7 @@
 #include "interp/query_order.hpp"
 #include "interp/site_gradients.hpp"
 #include "interp/site_mesh.hpp"
+#include "interp/slopes.hpp"
 #include "interp/sphere_tree.hpp"
 
 namespace terratet {
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double position_tolerance = 1e-9;  // of |Σ wp − q|, in radii of the containing cell
 constexpr double weight_tolerance = 1e-12;
+constexpr double rounding = 1e-10;  // of the distance to the farthest neighbour
 
 /// What one thread needs, kept from query to query.
 struct Workspace {
@@ -142,8 +144,10 @@ struct NaturalNeighbour::Impl {
             beta += weight * d * d;
         }
         const double alpha = times_distance / by_distance;
-        const double part = beta / (alpha + beta) * (1 - out.extrapolation);  // of ξ
+        const double part = beta / (alpha + beta) * (1 - out.beyond);  // of ξ
 
+        Vec3 off = (1 - part) * out.lever;  // of Z, then of ξ too
+        double farthest = 0;
         work.number.clear(points.size());
         work.terms.clear();
         const auto add = [&](std::uint32_t site, double weight) {
@@ -159,12 +163,20 @@ struct NaturalNeighbour::Impl {
             const double in_mean = part * weight / (length(from_site) * by_distance);
             add(site, (1 - part) * weight + in_mean);
             double own = 0;
+            off = off + in_mean * from_site;
+            farthest = std::max(farthest, length(from_site));
             for (const auto& [neighbour, factor] : gradients->of(static_cast<std::int32_t>(site))) {
                 const double slope = in_mean * dot(factor, from_site);
                 add(static_cast<std::uint32_t>(neighbour), slope);
                 own -= slope;
+                off = off - slope * (points[static_cast<std::size_t>(neighbour)] - points[site]);
             }
             add(site, own);
+        }
+        // Where all gradients are determined the mean of the linear fields is off by rounding alone.
+        out.lever = out.hidden > 0 || length(off) > rounding * farthest ? off : Vec3{};
+        if (out.lever != Vec3{}) {
+            out.slope_terms = out.terms;
         }
         out.terms.assign(work.terms.begin(), work.terms.end());
     }
@@ -185,6 +197,10 @@ void NaturalNeighbour::weights(std::span<const ValueQuery> queries, std::span<We
             impl_->sites.number_as_given(out[i]);
         }
     });
+}
+
+std::shared_ptr<const Slopes> NaturalNeighbour::slopes(std::vector<std::span<const double>> columns) const {
+    return std::make_shared<const Slopes>(impl_->sites, std::move(columns));
 }
 
 std::size_t NaturalNeighbour::memory_bytes() const {

@@ -13,15 +13,15 @@
 ///
 /// Smooth (Sibson 1981, C1): gradients at the sites, estimated from their neighbours (site_gradients.hpp), make the
 /// estimate's gradient continuous at the sites as well, and reproduce spherical quadratics (a + b·x + c|x|²) inside.
-/// Weights may be negative and estimates leave the values' range. Where the query extrapolates, the gradients' part
-/// fades.
+/// Weights may be negative and estimates leave the values' range. The gradients' part fades with the ghosts' share.
 ///
-/// Eight ghost sites, three diameters outside, make every query bounded. Their share is the extrapolation; the rest is
-/// renormalised. Beyond the ghosts, or where only ghosts are neighbours: the nearest visible site, extrapolation 1.
+/// Eight ghost sites, three diameters outside, make every query bounded. Their share (Weights::beyond) is left out and
+/// the rest renormalised. Beyond the ghosts, or where only ghosts are neighbours: the nearest visible site.
 ///
 /// Faults: a neighbour's weight is multiplied by how freely the query sees it (FaultProximity::openness), 0 where a
 /// sheet is in the way, and the rest renormalised; so nothing across a fault counts, and estimates are continuous round
-/// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value.
+/// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value. What ghosts and hidden
+/// sites had is made up for by slopes at the sites (slopes.hpp), so that linear fields are reproduced there too.
 ///
 /// Accuracy: a result is accepted if |Σ wᵢpᵢ − q| ≤ 1e-9·R, R the radius of the sphere around the cell that contains
 /// the query, and w ≥ −1e-12 (set to 0 then); otherwise it is recomputed in floats of 113 to 4096 bits, held to 1e-15;
@@ -52,6 +52,7 @@ class NaturalNeighbour final : public Estimator {
     ~NaturalNeighbour() override;
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
+    [[nodiscard]] std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const override;
 
     /// Bytes held, for the benchmarks.
     [[nodiscard]] std::size_t memory_bytes() const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/nearest.hpp"
 
+#include <cmath>
+
 #include "interp/query_order.hpp"
 
 namespace terratet {
@@ -14,10 +16,9 @@ void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index_.nearest(queries[i], 1, near);
-            out[i].terms.clear();
-            out[i].extrapolation = 0;
-            out[i].fallback = false;
+            out[i].clear();
             if (!near.empty()) {
+                out[i].distance = std::sqrt(near.front().squared_distance);
                 out[i].terms.push_back({near.front().site, 1.0});
             }
         }

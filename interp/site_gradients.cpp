@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "interp/stamped.hpp"
+#include "interp/stars.hpp"
 
 namespace terratet {
 namespace {
@@ -24,33 +25,6 @@ double typical_distance(std::vector<double> distances) {
     std::nth_element(distances.begin(), fifth, distances.end());
     return *fifth;
 }
-
-/// For each vertex its cells, ascending.
-struct Stars {
-    std::vector<std::size_t> begin;
-    std::vector<std::int32_t> cells;
-
-    explicit Stars(const CompactDelaunay& mesh) : begin(mesh.points().size() + 1, 0), cells(4 * mesh.cells().size()) {
-        for (const auto& cell : mesh.cells()) {
-            for (const std::int32_t v : cell.vertex) {
-                ++begin[static_cast<std::size_t>(v) + 1];
-            }
-        }
-        for (std::size_t v = 1; v < begin.size(); ++v) {
-            begin[v] += begin[v - 1];
-        }
-        std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-        for (std::size_t i = 0; i < mesh.cells().size(); ++i) {
-            for (const std::int32_t v : mesh.cells()[i].vertex) {
-                cells[next[static_cast<std::size_t>(v)]++] = static_cast<std::int32_t>(i);
-            }
-        }
-    }
-    [[nodiscard]] std::span<const std::int32_t> of(std::int32_t v) const {
-        const auto i = static_cast<std::size_t>(v);
-        return std::span(cells).subspan(begin[i], begin[i + 1] - begin[i]);
-    }
-};
 
 struct Neighbour {
     std::int32_t vertex;

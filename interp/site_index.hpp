@@ -40,6 +40,9 @@ class SiteIndex {
     /// Distances are those in these coordinates.
     [[nodiscard]] const Metric& metric() const { return metric_; }
 
+    /// The sites in these coordinates.
+    [[nodiscard]] const SiteTree& tree() const { return tree_; }
+
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:

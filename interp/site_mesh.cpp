@@ -3,6 +3,8 @@
 #include "interp/site_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "interp/morton.hpp"
 #include "tess/error.hpp"
@@ -56,11 +58,9 @@ double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {
 
 CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& start, Weights& out) const {
     constexpr CompactDelaunay::Location answered{-1, false};
-    out.terms.clear();
-    out.extrapolation = 0;
-    out.fallback = false;
+    out.clear();
     if (!mesh_.within_reach(q.at)) {
-        out.extrapolation = 1;
+        out.beyond = 1;
         if (!is_finite(q.at)) {
             return answered;
         }
@@ -73,6 +73,7 @@ CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& sta
         for (const std::int32_t v : mesh_.cells()[static_cast<std::size_t>(at.cell)].vertex) {
             if (mesh_.points()[static_cast<std::size_t>(v)] == q.at) {
                 out.terms = {{static_cast<std::uint32_t>(v), 1.0}};
+                out.distance = 0;
                 return answered;
             }
         }
@@ -82,7 +83,7 @@ CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& sta
 
 void SiteMesh::weigh(const SiteQuery& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
                      Weights& out) const {
-    double ghosts = 0;
+    double ghosts = 0, hidden = 0;
     bool any_site = false;
     for (std::size_t v = 0; v < shares.size(); ++v) {
         if (!(shares[v] > 0)) {
@@ -94,35 +95,59 @@ void SiteMesh::weigh(const SiteQuery& q, std::span<const std::int32_t> vertices,
         }
         any_site = true;
         const double weight = shares[v] * openness(q.place, vertices[v]);
+        hidden += shares[v] - weight;
         if (weight > 0) {
             out.terms.push_back({static_cast<std::uint32_t>(vertices[v]), weight});
         }
     }
-    out.extrapolation = std::min(ghosts, 1.0);
+    out.beyond = std::min(ghosts, 1.0);
+    out.hidden = std::min(ghosts + hidden, 1.0);
     if (!any_site || ghosts > 1 - sites_share_min) {
-        out.extrapolation = 1;
+        out.beyond = 1;
         out.terms.clear();
     }
     if (out.terms.empty()) {
         nearest_visible(q, out);
-    } else {
-        normalise(out.terms);
+        return;
     }
+    normalise(out.terms);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [site, weight] : out.terms) {
+        const Vec3 away = q.at - mesh_.points()[site];
+        nearest = std::min(nearest, squared_length(away));
+        if (out.hidden > 0) {
+            out.lever = out.lever + weight * away;
+        }
+    }
+    out.distance = distance_to_visible(q, std::sqrt(nearest));
 }
 
 void SiteMesh::number_as_given(Weights& out) const {
-    for (auto& term : out.terms) {
-        term.site = original_[term.site];
+    for (auto* list : {&out.terms, &out.slope_terms}) {
+        for (auto& term : *list) {
+            term.site = original_[term.site];
+        }
     }
 }
 
 void SiteMesh::nearest_visible(const SiteQuery& q, Weights& out) const {
     out.fallback = true;
+    out.hidden = 1;
     thread_local std::vector<NearSite> near;
+    near.clear();
     index_.nearest(ValueQuery{q.place}, 1, near);
     if (!near.empty()) {
         out.terms = {{near.front().site, 1.0}};
+        out.distance = std::sqrt(near.front().squared_distance);
+        out.lever = q.at - mesh_.points()[near.front().site];
     }
+}
+
+double SiteMesh::distance_to_visible(const SiteQuery& q, double most) const {
+    thread_local std::vector<NearSite> near;
+    near.clear();
+    index_.nearest(ValueQuery{q.place}, 1, near, most);
+    return near.empty() ? most : std::sqrt(near.front().squared_distance);
 }
 
 std::size_t SiteMesh::memory_bytes() const {

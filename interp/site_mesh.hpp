@@ -34,7 +34,8 @@ class SiteMesh {
 
     [[nodiscard]] const CompactDelaunay& tessellation() const { return mesh_; }
     [[nodiscard]] SiteQuery query(const Vec3& place) const { return {place, index_.metric()(place)}; }
-    [[nodiscard]] bool has_faults() const { return faults_ != nullptr; }
+    /// The barriers; null for none.
+    [[nodiscard]] const FaultProximity* faults() const { return faults_; }
 
     /// The caller's number of a site of the tessellation.
     [[nodiscard]] std::uint32_t original(std::int32_t vertex) const {
@@ -50,17 +51,20 @@ class SiteMesh {
                                : places_[static_cast<std::size_t>(vertex)];
     }
 
+    /// The sites by the tessellation's numbers, in its coordinates.
+    [[nodiscard]] const SiteTree& tree() const { return index_.tree(); }
+
     /// 0 where a fault is in the way, 1 where none is near it (FaultProximity::openness).
     [[nodiscard]] double openness(const Vec3& place, std::int32_t vertex) const;
 
     /// The cell that contains q, or −1 when `out` holds the answer already: on a site, beyond the ghosts' cube (the
     /// nearest visible site), and where q is not finite (no value). \param start  a cell to walk from; where the walk
-    /// ended on return
+    /// ended on return. `out` is cleared.
     CompactDelaunay::Location locate(const SiteQuery& q, std::int32_t& start, Weights& out) const;
 
-    /// Shares that vertices (ghosts among them) have in q, to weights: ghosts' become the extrapolation, sites' count
-    /// as far as they are visible and are renormalised; where none is, the nearest visible site. Terms are numbered as
-    /// in the tessellation.
+    /// Shares that vertices (ghosts among them) have in q, to weights: sites' count as far as they are visible and are
+    /// renormalised, with the lever to what they had been; where none is, the nearest visible site. Terms are numbered
+    /// as in the tessellation.
     void weigh(const SiteQuery& q, std::span<const std::int32_t> vertices, std::span<const double> shares,
                Weights& out) const;
 
@@ -74,6 +78,8 @@ class SiteMesh {
     SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
              const Anisotropy& anisotropy);
     void nearest_visible(const SiteQuery& q, Weights& out) const;
+    /// \param most  that of one that is visible
+    [[nodiscard]] double distance_to_visible(const SiteQuery& q, double most) const;
 
     std::vector<std::uint32_t> original_;
     std::vector<Vec3> places_;  ///< of the sites, in the tessellation's order; empty: as in the tessellation

@@ -79,7 +79,7 @@ void measure(const char* name, const std::vector<Vec3>& sites, std::size_t count
             continue;  // on a site
         }
         cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
-        if (weights[i].extrapolation == 0) {
+        if (weights[i].beyond == 0) {
             Vec3 mean;
             for (const auto& [site, weight] : weights[i].terms) {
                 mean = mean + weight * (sites[site] - q);

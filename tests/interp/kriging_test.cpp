@@ -40,7 +40,7 @@ void require_sound(const Weights& w) {
     REQUIRE(sum == Approx(1).margin(1e-6));
     REQUIRE(w.variance >= 0);
     REQUIRE(std::isfinite(w.variance));
-    REQUIRE((w.extrapolation >= 0 && w.extrapolation <= 1));
+    REQUIRE((w.beyond >= 0 && w.beyond <= 1));
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ TEST_CASE("On a site kriging gives its value with no variance; far from all, the
         REQUIRE(w.variance == 0);
     }
     const auto far = weights_at(any_kriging, sites, {{1e5, 0, 0}}).front();
-    CHECK(far.extrapolation == 1);
+    CHECK(far.beyond == 1);
     CHECK(far.variance > 1.1);
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("Laplace weights equal those of CGAL's laplace_natural_neighbor_coordi
         const auto cgal = cgal_laplace_weights(sites, places);
         double worst = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            if (own[i].extrapolation == 0) {
+            if (own[i].beyond == 0) {
                 worst = std::max(worst, largest_difference(own[i].terms, cgal[i]));
             }
         }
@@ -136,7 +136,7 @@ TEST_CASE("Linear weights are the barycentric coordinates in the samples' Delaun
     const auto own = weights_at(*estimator_of("linear", sites), places);
     const auto exact = cgal_linear_weights(sites, places);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        REQUIRE(own[i].extrapolation == 0);
+        REQUIRE(own[i].beyond == 0);
         REQUIRE(own[i].terms.size() <= 4);
         REQUIRE(largest_difference(own[i].terms, exact[i]) <= 1e-10);
     }
@@ -158,7 +158,7 @@ TEST_CASE("Linear fields are reproduced inside the hull by all that read the tes
             double worst = 0;
             std::size_t inside = 0;
             for (std::size_t i = 0; i < places.size(); ++i) {
-                if (weights[i].extrapolation == 0) {
+                if (weights[i].beyond == 0) {
                     ++inside;
                     worst = std::max(worst, std::abs(value(weights[i], sites, field) - field(places[i])));
                 }
@@ -332,19 +332,19 @@ TEST_CASE("With anisotropy they are what they are without among sites turned and
         std::size_t different = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             REQUIRE(with[i].terms.size() == without[i].terms.size());
-            REQUIRE(with[i].extrapolation == without[i].extrapolation);
+            REQUIRE(with[i].beyond == without[i].beyond);
             for (std::size_t k = 0; k < with[i].terms.size(); ++k) {
                 REQUIRE(with[i].terms[k].site == without[i].terms[k].site);
                 REQUIRE(with[i].terms[k].weight == without[i].terms[k].weight);
             }
             different +=
-                with[i].terms.size() != plain[i].terms.size() || with[i].extrapolation != plain[i].extrapolation;
+                with[i].terms.size() != plain[i].terms.size() || with[i].beyond != plain[i].beyond;
         }
         CHECK(different > 200);
         // A linear field stays one, and a site has its own value.
         const auto linear = [](const Vec3& p) { return 1 + 0.2 * p.x - 0.3 * p.y + 0.1 * p.z; };
         for (std::size_t i = 0; i < places.size(); ++i) {
-            if (with[i].extrapolation == 0) {
+            if (with[i].beyond == 0) {
                 REQUIRE(value(with[i], sites, linear) == Approx(linear(places[i])).epsilon(1e-10).margin(1e-8));
             }
         }
@@ -400,8 +400,8 @@ TEST_CASE("Few, collinear, coplanar and coincident-but-for-rounding sites give f
                 }
                 REQUIRE(std::abs(sum - 1) <= 1e-12);
                 REQUIRE(std::abs(ones - 7) <= 1e-11);
-                REQUIRE(weights[i].extrapolation >= 0);
-                REQUIRE(weights[i].extrapolation <= 1);
+                REQUIRE(weights[i].beyond >= 0);
+                REQUIRE(weights[i].beyond <= 1);
             }
         }
     }

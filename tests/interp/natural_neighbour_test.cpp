@@ -111,7 +111,7 @@ std::vector<Vec3> half_points(int n) {
 }
 
 bool identical(const Weights& a, const Weights& b) {
-    return a.extrapolation == b.extrapolation && a.fallback == b.fallback &&
+    return a.beyond == b.beyond && a.fallback == b.fallback &&
            std::equal(
                a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(),
                [](const SiteWeight& x, const SiteWeight& y) { return x.site == y.site && x.weight == y.weight; });
@@ -147,7 +147,7 @@ TEST_CASE("Natural neighbour weights sum to 1, are not negative and give the que
                 worst_weight = std::min(worst_weight, term.weight);
             }
             fallbacks += weights[i].fallback;
-            if (weights[i].extrapolation == 0) {
+            if (weights[i].beyond == 0) {
                 ++inside;
                 const auto at = mesh.locate(places[i], mesh.start_near(places[i]));
                 const auto& cell = mesh.cells()[static_cast<std::size_t>(at.cell)];
@@ -182,7 +182,7 @@ TEST_CASE("On a site the weight is that site's alone, and a hair off it nearly s
             REQUIRE(on[i].terms.size() == 1);
             REQUIRE(on[i].terms.front().site == i);
             REQUIRE(on[i].terms.front().weight == 1);
-            REQUIRE(on[i].extrapolation == 0);
+            REQUIRE(on[i].beyond == 0);
             const auto own = std::find_if(near[i].terms.begin(), near[i].terms.end(),
                                           [i](const SiteWeight& term) { return term.site == i; });
             REQUIRE(own != near[i].terms.end());
@@ -207,7 +207,7 @@ TEST_CASE("Natural neighbour weights equal those of CGAL's sibson_natural_neighb
     const auto cgal = cgal_sibson_weights(sites, places);
     double worst = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        REQUIRE(own[i].extrapolation == 0);
+        REQUIRE(own[i].beyond == 0);
         worst = std::max(worst, largest_difference(own[i].terms, cgal[i]));
     }
     CHECK(worst <= 1e-9);
@@ -262,7 +262,7 @@ TEST_CASE("Natural neighbour weights equal exact differences of Voronoi volumes 
         double worst = 0, worst_long = 0, worst_wide = 0, worst_precise = 0;
         std::size_t given_up = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            if (own[i].extrapolation > 0) {
+            if (own[i].beyond > 0) {
                 continue;
             }
             ++compared;
@@ -325,7 +325,7 @@ TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums ar
             auto own = weights_at(estimator, {q}).front();
             REQUIRE(!own.fallback);
             for (auto& term : own.terms) {
-                term.weight *= 1 - own.extrapolation;  // as before the ghosts' share was left out
+                term.weight *= 1 - own.beyond;  // as before the ghosts' share was left out
             }
             REQUIRE(largest_difference(own.terms, fallback_weights(sites, q, Fallback::precise)) <= 1e-9);
         }
@@ -344,7 +344,7 @@ TEST_CASE("Linear fields are reproduced inside the hull") {
         const auto weights = weights_at(estimator, places);
         double worst = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            if (weights[i].extrapolation > 0) {
+            if (weights[i].beyond > 0) {
                 continue;
             }
             double value = 0;
@@ -424,10 +424,10 @@ TEST_CASE("Few, collinear and coplanar sites give the answers symmetry asks for"
         const auto near = at({{5, 5, 5}}, {5.5, 5, 5});
         REQUIRE(near.terms.size() == 1);
         CHECK(near.terms[0].weight == 1);
-        CHECK(near.extrapolation > 0);
+        CHECK(near.beyond > 0);
         const auto far = at({{5, 5, 5}}, {500, 5, 5});
         REQUIRE(far.terms.size() == 1);
-        CHECK(far.extrapolation == 1);
+        CHECK(far.beyond == 1);
         CHECK(far.fallback);
     }
     SECTION("between two sites both count the same") {
@@ -465,7 +465,7 @@ TEST_CASE("Few, collinear and coplanar sites give the answers symmetry asks for"
     SECTION("beyond the ghosts: the nearest site, all of it extrapolated") {
         const auto w = at(uniform_sites(50), {1e7, 0, 0});
         REQUIRE(w.terms.size() == 1);
-        CHECK(w.extrapolation == 1);
+        CHECK(w.beyond == 1);
     }
 }
 
@@ -476,11 +476,11 @@ TEST_CASE("The extrapolation is 0 inside, grows outwards, and stays within 0 and
         outwards.push_back({500.0 + 100 * i, 510, 490});
     }
     const auto weights = weights_at(NaturalNeighbour(sites, nullptr), outwards);
-    CHECK(weights.front().extrapolation == 0);
+    CHECK(weights.front().beyond == 0);
     for (std::size_t i = 1; i < weights.size(); ++i) {
-        CHECK(weights[i].extrapolation >= weights[i - 1].extrapolation);
-        CHECK(weights[i].extrapolation <= 1);
+        CHECK(weights[i].beyond >= weights[i - 1].beyond);
+        CHECK(weights[i].beyond <= 1);
         CHECK(sum_of(weights[i]) == Approx(1).margin(1e-13));
     }
-    CHECK(weights.back().extrapolation > 0.1);
+    CHECK(weights.back().beyond > 0.1);
 }

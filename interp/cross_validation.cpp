@@ -97,7 +97,8 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
     }
     out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &faults);
     const auto folds = folds_of(model.samples, out.sample, options.max_folds, options.loose_folds);
-    const ErrorGroups groups(sites.size(), folds, groups_max);
+    const ErrorGroups groups(sites.size(), folds, groups_max,
+                             folds_of(model.samples, out.sample, 0, options.loose_folds).size());
     const EstimatorSpec open = open_again(out.estimator, spec, sites, out.measured, boreholes, kind.kind);
     const auto some = [&](std::span<const std::uint32_t> kept) {
         Some part;

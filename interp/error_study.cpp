@@ -11,11 +11,12 @@
 
 namespace terratet {
 
-ErrorGroups::ErrorGroups(std::size_t sites, std::span<const std::vector<std::uint32_t>> folds, std::size_t most)
+ErrorGroups::ErrorGroups(std::size_t sites, std::span<const std::vector<std::uint32_t>> folds, std::size_t most,
+                         std::size_t all)
     : of_site(sites), boreholes(std::min(folds.size(), most), 0) {
     for (std::size_t f = 0; f < folds.size(); ++f) {
         const std::size_t group = f % boreholes.size();
-        ++boreholes[group];
+        boreholes[group] += (all - f + folds.size() - 1) / folds.size();
         for (const std::uint32_t i : folds[f]) {
             of_site[i] = static_cast<std::uint32_t>(group);
         }

@@ -19,8 +19,9 @@ struct ErrorGroups {
     std::vector<std::uint32_t> of_site;
     std::vector<std::size_t> boreholes;  ///< in each group
 
-    /// Of folds (folds.hpp), every `most`-th in the same group.
-    ErrorGroups(std::size_t sites, std::span<const std::vector<std::uint32_t>> folds, std::size_t most);
+    /// Of folds (folds.hpp) that `all` boreholes share in turn, every `most`-th fold in the same group.
+    ErrorGroups(std::size_t sites, std::span<const std::vector<std::uint32_t>> folds, std::size_t most,
+                std::size_t all);
 };
 
 class ErrorStudy {

@@ -81,11 +81,7 @@ std::vector<std::optional<LearnedErrors>> learn_errors(const ErrorTask& task) {
     if (nothing_to_learn || (all_known && own_variance)) {
         return out;
     }
-    ErrorGroups groups(task.sites.size(), folds, folds.size());
-    const std::size_t boreholes = folds_of(task.samples, task.which).size();
-    for (std::size_t f = 0; f < folds.size(); ++f) {
-        groups.boreholes[f] = (boreholes - f + folds.size() - 1) / folds.size();
-    }
+    const ErrorGroups groups(task.sites.size(), folds, folds.size(), folds_of(task.samples, task.which).size());
     std::vector<std::optional<ErrorStudy>> studies(out.size());
     for (std::size_t c = 0; c < out.size(); ++c) {
         if (out[c]) {

@@ -130,6 +130,15 @@ TEST_CASE("A model's factors are those of its cross-validation, whose fits do no
     }
 }
 
+TEST_CASE("Boreholes count one by one where they are left out together") {
+    const Model model = wells_model();
+    for (const std::size_t folds : {0, 5, 22}) {
+        const auto v = cross_validate(model, no_faults(), 0, parse_estimator("idw"), {.max_folds = folds});
+        CHECK(v.folds == (folds == 0 ? 25 : folds));
+        CHECK(v.calibration.boreholes == 25);
+    }
+}
+
 TEST_CASE("R6: cross-validation has the same bits at any thread count") {
     const Model model = wells_model();
     for (const std::string spec : {"natural", "idw", "kriging", "nearest"}) {

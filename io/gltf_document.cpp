@@ -22,7 +22,8 @@ using tinygltf::Value;
 /// Accessors may hold no NaN: this stands for a missing value, and asset.extras.nodata says so.
 constexpr float nodata = std::numeric_limits<float>::lowest();
 
-constexpr const char* own_attributes[] = {"_BATCHID", "_FEATURE_ID_0"};
+constexpr const char* extrapolation_attribute = "_EXTRAPOLATION";
+constexpr const char* own_attributes[] = {"_BATCHID", "_FEATURE_ID_0", extrapolation_attribute};
 
 /// glTF: an underscore, then upper case; kept to ASCII, as some viewers make variables of shaders of it.
 std::vector<std::string> attribute_names(const std::vector<Property>& properties) {
@@ -124,7 +125,8 @@ class Document {
             primitive.attributes["COLOR_0"] = add_colors(part.values[coloring.index()], coloring);
         }
         for (std::size_t p = 0; p < part.values.size(); ++p) {
-            primitive.attributes[attributes_[p]] = add_scalars(part.values[p]);
+            primitive.attributes[p < attributes_.size() ? attributes_[p] : extrapolation_attribute] =
+                add_scalars(part.values[p]);
         }
         primitive.indices = add_indices(part.triangles);
         primitive.material = add_material(part, colored);

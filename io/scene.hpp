@@ -72,7 +72,8 @@ struct ScenePart {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Triangle> triangles;
-    std::vector<std::vector<double>> values;  ///< [property], measured units; empty: no values here
+    std::vector<std::vector<double>> values;  ///< [property], measured units, and of the tessellation's surfaces a last
+                                              ///< one, the extrapolation; empty: no values here
     bool colored = false;                     ///< by the values of the colouring's property
     Color color{1, 1, 1};                     ///< otherwise
     double opacity = 1;

@@ -79,6 +79,7 @@ std::vector<std::vector<double>> all_values(const ModelView& view, const Clipped
     for (std::size_t p = 0; p < view.model.properties.size(); ++p) {
         values.push_back(clipped.values(view.model, p));
     }
+    values.push_back(clipped.extrapolation(view.model));
     return values;
 }
 

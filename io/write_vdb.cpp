@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// One FloatGrid a property: the tessellation's linear field at the voxels' centres. Voxels without a value are
-/// inactive.
+/// inactive. A last one is the vertices' extrapolation, to mask by.
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -24,6 +25,8 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 
 /// Of voxels outside; inactive, so only tools that ignore the active mask see it.
 constexpr float background = 0;
+
+constexpr const char* extrapolation_name = "extrapolation";
 
 /// Makes the leaves of each tile and keeps those that have an active voxel.
 class LeafSink final : public TileSink {
@@ -114,10 +117,10 @@ void describe(openvdb::MetaMap& meta, const Property& property) {
     }
 }
 
-openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const Lattice& lattice, const OwnSide& sides,
-                                  const Progress& progress) {
-    const Property& property = view.model.properties[p];
-    std::vector<double> scaled = view.model.vertex_values.values[p];
+/// \param values  of the property, or of something like one, at the vertices
+openvdb::FloatGrid::Ptr make_grid(const ModelView& view, const Property& property, const std::vector<double>& values,
+                                  const Lattice& lattice, const OwnSide& sides, const Progress& progress) {
+    std::vector<double> scaled = values;
     for (double& value : scaled) {
         value = to_scale(property, value);
     }
@@ -128,6 +131,18 @@ openvdb::FloatGrid::Ptr make_grid(const ModelView& view, std::size_t p, const La
     LeafSink sink;
     resample(field, lattice, sink, progress);
     return sink.take_grid();
+}
+
+/// The vertices' extrapolation; none where no property has a value, as above the ground.
+std::vector<double> extrapolation_of_values(const VertexValues& vertices) {
+    std::vector<double> out = vertices.extrapolation;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        if (std::all_of(vertices.values.begin(), vertices.values.end(),
+                        [v](const std::vector<double>& values) { return std::isnan(values[v]); })) {
+            out[v] = missing;
+        }
+    }
+    return out;
 }
 
 std::uint32_t compression() {
@@ -150,18 +165,25 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     for (const Property& property : model.properties) {
         names.push_back(property.name);
     }
-    names = distinct_names(std::move(names), {});
+    names = distinct_names(std::move(names), std::array{extrapolation_name});
 
     const FaultProximity faults(model.faults);
     const OwnSide sides(view.mesh, view.cells.fault, faults);
     openvdb::GridPtrVec grids;
-    for (std::size_t p = 0; p < names.size(); ++p) {
-        const auto grid = make_grid(view, p, lattice, sides, options.progress);
-        grid->setName(names[p]);
+    const auto add = [&](const std::string& name, const Property& property, const std::vector<double>& values) {
+        const auto grid = make_grid(view, property, values, lattice, sides, options.progress);
+        grid->setName(name);
         grid->setTransform(make_transform(lattice, model.frame, options.local_origin));
         describe(*grid, model.frame, options.local_origin);
-        describe(*grid, model.properties[p]);
+        describe(*grid, property);
         grids.push_back(grid);
+    };
+    for (std::size_t p = 0; p < names.size(); ++p) {
+        add(names[p], model.properties[p], model.vertex_values.values[p]);
+    }
+    if (!names.empty()) {
+        add(extrapolation_name, {extrapolation_name, "", Scale::linear, Kind::continuous, {}},
+            extrapolation_of_values(model.vertex_values));
     }
     openvdb::MetaMap meta;
     describe(meta, model.frame, options.local_origin);

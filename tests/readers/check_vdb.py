@@ -30,6 +30,8 @@ class Mesh:
         self.fault = vtk_to_numpy(grid.GetCellData().GetArray("fault"))
         self.names = strings(grid, "Properties")
         self.scales = dict(zip(self.names, strings(grid, "PropertyScales")))
+        self.names += ["extrapolation"] if self.names else []
+        self.scales["extrapolation"] = "linear"
         self.values = {name: vtk_to_numpy(grid.GetPointData().GetArray(name)) for name in self.names}
         self.crs = strings(grid, "CRS")[0]
         corners = self.points[self.cells]

@@ -8,6 +8,9 @@
 ///
 ///   natural_neighbour_bench [QUERIES=100000]
 ///   natural_neighbour_bench --threads              what a second thread gains
+///   natural_neighbour_bench --regular [SITES=10000]     samples on lattices, planes, lines, layers and spheres against
+///                                                  the same number jittered
+///   natural_neighbour_bench --builds               places all over the extent of a build, many beyond the hull
 ///   natural_neighbour_bench --sites FILE SITES     what natural_neighbour_peer.py compares with SciPy: FILE holds
 ///                                                  x, y, z as doubles, SITES sites, then the queries; prints rates
 ///                                                  of natural, laplace, linear and natural:smooth
@@ -17,6 +20,7 @@
 #include <CGAL/natural_neighbor_coordinates_3.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -163,6 +167,117 @@ void threads(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
         sites.size(), runs, count / wall[0] / 1000, count / wall[1] / 1000, wall[0] / wall[1], cpu[1] / cpu[0]);
 }
 
+struct Shape {
+    const char* name;
+    std::vector<Vec3> sites;
+};
+
+std::vector<Vec3> grid_sites(std::size_t nx, std::size_t ny, std::size_t nz, const Vec3& step) {
+    std::vector<Vec3> sites;
+    for (std::size_t i = 0; i < nx; ++i) {
+        for (std::size_t j = 0; j < ny; ++j) {
+            for (std::size_t k = 0; k < nz; ++k) {
+                sites.push_back({double(i) * step.x, double(j) * step.y, double(k) * step.z});
+            }
+        }
+    }
+    return sites;
+}
+
+/// Steps of 10; of the spheres all integer points at one distance.
+std::vector<Shape> shapes(std::size_t count) {
+    const auto n = static_cast<double>(count);
+    const auto cube = static_cast<std::size_t>(std::lround(std::cbrt(n)));
+    const auto square = static_cast<std::size_t>(std::lround(std::sqrt(n)));
+    const auto layer = static_cast<std::size_t>(std::lround(std::sqrt(n / 5)));
+    return {{"lattice", grid_sites(cube, cube, cube, {10, 10, 10})},
+            {"plane", grid_sites(square, square, 1, {10, 10, 10})},
+            {"line", grid_sites(count, 1, 1, {10, 10, 10})},
+            {"five layers", grid_sites(layer, layer, 5, {10, 10, 37})},
+            {"one sphere", testing::cospherical_sites(count > 2000 ? 50'006 : 5'006)}};
+}
+
+/// In turns all over the box, at half steps, and up to four steps beyond.
+std::vector<Vec3> places_by(const std::vector<Vec3>& sites, std::size_t count) {
+    testing::Random random(3);
+    const Box3 box = bounding_box(sites), grown = box.grown(40);
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3 p = random.in(i % 3 == 2 ? grown : box);
+        if (i % 3 == 1) {
+            p = {5 * std::round(p.x / 5), 5 * std::round(p.y / 5), 5 * std::round(p.z / 5)};
+        }
+        places.push_back(p);
+    }
+    return morton_sorted(places);
+}
+
+void regular(std::size_t count) {
+    const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
+    std::printf(
+        "| samples | number | build, s | jittered | ratio | µs a place | jittered | ratio | fallbacks |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
+    for (const Shape& shape : shapes(count)) {
+        double build[2], place[2];
+        std::size_t fallbacks = 0;
+        constexpr std::size_t place_count = 1500;
+        for (const int jittered : {0, 1}) {
+            auto sites = shape.sites;
+            testing::Random random(5);
+            for (auto& p : sites) {
+                p = p + jittered * random.in({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
+            }
+            const double start = cpu_s();
+            const NaturalNeighbour estimator(sites, nullptr);
+            build[jittered] = cpu_s() - start;
+            const Own own = own_rate(estimator, places_by(shape.sites, place_count), block, cpu_s);
+            place[jittered] = 1e6 / own.rate;
+            fallbacks = jittered ? fallbacks : own.fallbacks;
+        }
+        std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.1f | %.1f | **%.2f** | %zu of %zu |\n", shape.name,
+                    shape.sites.size(), build[0], build[1], build[0] / build[1], place[0], place[1],
+                    place[0] / place[1], fallbacks, place_count);
+        std::fflush(stdout);
+    }
+}
+
+/// Nearly vertical wells on a square grid.
+std::vector<Vec3> wells_on_grid(int side, double apart) {
+    testing::Random random(1);
+    std::vector<Vec3> sites;
+    for (int w = 0; w < side * side; ++w) {
+        const Vec3 collar{apart * (w % side), apart * (w / side), 1000};
+        const Vec3 lean{random(-0.03, 0.03), random(-0.03, 0.03), -1};
+        for (int i = 0; i < 250; ++i) {
+            sites.push_back(collar + (4 * i + 2) * lean + random.in({{-0.1, -0.1, -0.5}, {0.1, 0.1, 0.5}}));
+        }
+    }
+    return sites;
+}
+
+/// As a build values its vertices: all over the box, padded by a twenty-fifth of the diagonal as by default.
+void builds() {
+    const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
+    std::printf("| samples | build, s | neighbours of a place | places/s | fallbacks |\n|---|---|---|---|---|\n");
+    const std::vector<Shape> sites = {{"400 wells x 250", testing::borehole_sites(400, 250)},
+                                      {"100 wells x 250, 200 apart", wells_on_grid(10, 200)}};
+    for (const Shape& shape : sites) {
+        const Box3 box = bounding_box(shape.sites);
+        testing::Random random(7);
+        std::vector<Vec3> places(20'000);
+        for (auto& p : places) {
+            p = random.in(box.grown(0.04 * box.diagonal()));
+        }
+        const double start = cpu_s();
+        const NaturalNeighbour estimator(shape.sites, nullptr);
+        const double build = cpu_s() - start;
+        const Own own = own_rate(estimator, morton_sorted(places), block, cpu_s);
+        std::printf("| %s | %.2f | %.0f | %.0f | %zu of %zu |\n", shape.name, build, own.neighbours, own.rate,
+                    own.fallbacks, places.size());
+        std::fflush(stdout);
+    }
+}
+
 /// For the peer: rates of the family on given sites and queries, one thread.
 void rates_on(const std::string& path, std::size_t site_count) {
     std::ifstream file(path, std::ios::binary);
@@ -187,6 +302,14 @@ int main(int argc, char** argv) {
     }
     if (argc == 2 && std::string(argv[1]) == "--threads") {
         threads(testing::uniform_sites(100'000), random_places(100'000));
+        return 0;
+    }
+    if (argc >= 2 && std::string(argv[1]) == "--regular") {
+        regular(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 10'000);
+        return 0;
+    }
+    if (argc == 2 && std::string(argv[1]) == "--builds") {
+        builds();
         return 0;
     }
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000;

@@ -164,7 +164,7 @@ TEST_CASE("Fault preparation stops at any of its reports of progress") {
             all += times;
         }
         CHECK(reports.size() == 6);
-        for (int stop = 0; stop < all; stop += std::max(1, all / 25)) {
+        for (int stop = 0; stop < all; stop += std::max(1, all / 8)) {
             int reported = 0;
             const auto cancel = [&](std::string_view, double) { return reported++ < stop; };
             CHECK_THROWS_AS(prepare_faults(surfaces, around_walls, {}, 1000, options, cancel), Cancelled);

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 
+#include "interp/beside_barriers.hpp"
 #include "interp/error_study.hpp"
 #include "interp/extrapolation.hpp"
 #include "interp/folds.hpp"
@@ -95,7 +96,9 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
             boreholes.push_back(model.samples.borehole[s]);
         }
     }
-    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &faults);
+    sites = beside_barriers(std::move(sites), faults);
+    const FaultProximity& barriers = faults.seen_by(property);
+    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &barriers);
     const auto folds = folds_of(model.samples, out.sample, options.max_folds, options.loose_folds);
     const ErrorGroups groups(sites.size(), folds, groups_max,
                              folds_of(model.samples, out.sample, 0, options.loose_folds).size());
@@ -119,13 +122,13 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
                 }
             }
             const Some part = some(kept);
-            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &faults,
+            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &barriers,
                                                samples_of_fold_fit);
         });
     }
     const PartialEstimator make = [&](std::span<const std::uint32_t> kept, std::uint32_t fold) {
         Some part = some(kept);
-        return make_estimator(of_group[fold % of_group.size()], std::move(part.sites), &faults,
+        return make_estimator(of_group[fold % of_group.size()], std::move(part.sites), &barriers,
                               std::move(part.boreholes));
     };
     out.folds = folds.size();
@@ -154,7 +157,7 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
         return out;
     }
     out.deviation_source = has_variance ? DeviationSource::kriging : DeviationSource::cross_validated;
-    study.judge(&faults, left_out);
+    study.judge(&barriers, left_out);
     out.calibration = study.calibration();
     const auto stated = study.stated();
     for (std::size_t i = 0; i < sites.size(); ++i) {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
+#include "interp/beside_barriers.hpp"
 #include "interp/extrapolation.hpp"
 #include "interp/learned_errors.hpp"
 #include "interp/linear_precision.hpp"
@@ -28,9 +30,10 @@ struct Column {
     std::optional<LearnedErrors> errors;
 };
 
-/// Properties measured at the same samples and estimated alike, and the estimator over those.
+/// Properties measured at the same samples, barred by the same and estimated alike, and the estimator over those.
 struct Group {
     EstimatorSpec spec;
+    const FaultProximity* barriers = nullptr;
     std::vector<std::uint32_t> samples;
     std::vector<Vec3> sites;
     std::vector<Column> columns;
@@ -92,24 +95,26 @@ std::shared_ptr<const Slopes> slopes_of(const Group& group) {
 /// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
 /// values.
 std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, EstimatorPlan& plan) {
-    std::map<std::pair<std::vector<std::uint32_t>, std::string>, Group> groups;
+    std::map<std::tuple<std::vector<std::uint32_t>, std::string, bool>, Group> groups;
     for (std::size_t p = 0; p < model.properties.size(); ++p) {
         auto samples = samples_with(model, p);
         if (samples.empty()) {
             continue;
         }
         Column column = column_of(model, p, samples);
-        EstimatorSpec spec = fitted_for(model, column, samples, faults, plan);
-        Group& group = groups[{samples, spec.to_string()}];
+        const FaultProximity& barriers = faults.seen_by(p);
+        EstimatorSpec spec = fitted_for(model, column, samples, barriers, plan);
+        Group& group = groups[{samples, spec.to_string(), &barriers == &faults}];
+        group.barriers = &barriers;
         group.columns.push_back(std::move(column));
         group.spec = std::move(spec);
         group.samples = std::move(samples);
     }
     std::vector<Group> out;
     for (auto& [key, group] : groups) {
-        group.sites = picked(model.samples.positions, group.samples);
+        group.sites = beside_barriers(picked(model.samples.positions, group.samples), faults);
         const auto boreholes = picked(model.samples.borehole, group.samples);
-        group.estimator = make_estimator(group.spec, group.sites, &faults, boreholes);
+        group.estimator = make_estimator(group.spec, group.sites, group.barriers, boreholes);
         const double reach = reach_of(group.spec, group.sites, boreholes);
         for (auto& column : group.columns) {
             column.traits = traits_of(column.scaled, reach);
@@ -121,10 +126,10 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
 }
 
 /// Leaves boreholes out to learn how far estimates are off; what is found comes back in the plan.
-void learn_group(Group& group, const Model& model, const FaultProximity& faults, const EstimatorPlan& asked,
-                 std::size_t max_folds, EstimatorPlan& plan) {
+void learn_group(Group& group, const Model& model, const EstimatorPlan& asked, std::size_t max_folds,
+                 EstimatorPlan& plan) {
     const auto boreholes = picked(model.samples.borehole, group.samples);
-    ErrorTask task{group.spec, group.spec, model.samples, group.samples, group.sites, boreholes, faults, {}, max_folds};
+    ErrorTask task{group.spec, group.spec, model.samples, group.samples, group.sites, boreholes, *group.barriers, {}, max_folds};
     for (const auto& column : group.columns) {
         const Property& property = model.properties[column.property];
         const auto known = asked.calibrations.find(property.name);
@@ -229,6 +234,7 @@ const char* to_string(DeviationSource source) {
 
 struct ModelEstimator::Impl {
     const Model& model;
+    const FaultProximity& faults;
     EstimatorPlan plan;
     std::vector<Group> groups;
     std::shared_ptr<EstimatorCounters> counters;
@@ -236,13 +242,14 @@ struct ModelEstimator::Impl {
     /// Calls work(group, place, weights, queries): weights of a block of queries at a time, near each other, or each
     /// would walk over all of the memory; place[k] is the block's k-th query's index in `queries`.
     template <typename Work>
-    void for_each_block(std::span<const ValueQuery> queries, const Work& work) const {
+    void for_each_block(std::span<const ValueQuery> asked, const Work& work) const {
+        const std::vector<ValueQuery> queries = beside_barriers(asked, faults);
         const bool single = queries.size() <= block_size;
         const auto order = single ? std::vector<std::uint32_t>() : spatial_order(queries);
         std::vector<ValueQuery> sorted;
         for (std::size_t begin = 0; begin < queries.size(); begin += block_size) {
             const std::size_t count = std::min(block_size, queries.size() - begin);
-            auto block = queries;
+            auto block = std::span<const ValueQuery>(queries);
             if (!single) {
                 sorted.clear();
                 for (const std::uint32_t i : std::span(order).subspan(begin, count)) {
@@ -334,7 +341,7 @@ struct ModelEstimator::Impl {
 
 ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
                                std::shared_ptr<EstimatorCounters> counters, const ModelEstimatorOptions& options)
-    : impl_(new Impl{model, plan, {}, std::move(counters)}) {
+    : impl_(new Impl{model, faults, plan, {}, std::move(counters)}) {
     impl_->groups = groups_of(model, faults, impl_->plan);
     if (impl_->groups.size() == 1) {
         impl_->plan = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
@@ -342,7 +349,7 @@ ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults,
     }
     if (options.uncertainty) {
         for (auto& group : impl_->groups) {
-            learn_group(group, model, faults, plan, options.error_folds, impl_->plan);
+            learn_group(group, model, plan, options.error_folds, impl_->plan);
         }
     }
 }

@@ -36,9 +36,10 @@ struct LinearField {
     const TetMesh* mesh = nullptr;
     std::span<const double> vertex_values{};   ///< in the property's scale; NaN: the cell is left out
     std::span<const std::uint8_t> use_cell{};  ///< one per cell; empty: all
-    const OwnSide* sides = nullptr;            ///< when given, a gap cell takes its values from the voxel's own side
-    bool log10 = false;                        ///< write 10^value
-    bool categorical = false;                  ///< write the class of the largest barycentric weight
+    const OwnSide* sides =
+        nullptr;               ///< when given, cells that reach across a barrier take the voxel's own side's values
+    bool log10 = false;        ///< write 10^value
+    bool categorical = false;  ///< write the class of the largest barycentric weight
 };
 
 /// Byte-identical at any thread count: a voxel on a common facet, edge or vertex belongs to the cell with the smallest

@@ -83,8 +83,11 @@ class Hash {
     }
 
     void add(const Property& p) {
-        const auto& [name, unit, scale, kind, classes] = p;
+        const auto& [name, unit, scale, kind, classes, hard_horizons] = p;
         add_all(name, unit, scale, kind, classes);
+        if (hard_horizons) {
+            add(std::string("hard horizons"));
+        }
     }
     void add(const Borehole& b) {
         const auto& [id, collar, path, path_depth] = b;

@@ -100,6 +100,9 @@ json properties_json(const std::vector<Property>& properties, const std::vector<
                           {"scale", p.scale == Scale::log10 ? "log10" : "linear"},
                           {"kind", p.kind == Kind::categorical ? "categorical" : "continuous"},
                           {"classes", p.classes}});
+        if (p.hard_horizons) {
+            result.back()["horizons"] = "hard";
+        }
         if (!censored_columns[i].empty()) {
             result.back()["censored_column"] = censored_columns[i];
         }
@@ -123,6 +126,7 @@ Property property_of(const json& j) {
     p.scale = is_second(j.at("scale"), "linear", "log10") ? Scale::log10 : Scale::linear;
     p.kind = is_second(j.at("kind"), "continuous", "categorical") ? Kind::categorical : Kind::continuous;
     p.classes = j.at("classes").get<std::vector<std::string>>();
+    p.hard_horizons = is_second(j.value("horizons", json("soft")), "soft", "hard");
     return p;
 }
 

@@ -119,11 +119,12 @@ void describe(openvdb::MetaMap& meta, const Property& property) {
 
 /// \param values  of the property, or of something like one, at the vertices
 openvdb::FloatGrid::Ptr make_grid(const ModelView& view, const Property& property, const std::vector<double>& values,
-                                  const Lattice& lattice, const OwnSide& sides, const Progress& progress) {
+                                  const Lattice& lattice, const FaultProximity& faults, const Progress& progress) {
     std::vector<double> scaled = values;
     for (double& value : scaled) {
         value = to_scale(property, value);
     }
+    const OwnSide sides(view.mesh, view.cells.fault, faults, view.model.domain.extent);
     LinearField field{&view.mesh, scaled};
     field.sides = &sides;
     field.log10 = property.scale == Scale::log10;
@@ -167,11 +168,11 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     }
     names = distinct_names(std::move(names), std::array{extrapolation_name});
 
-    const FaultProximity faults(model.faults);
-    const OwnSide sides(view.mesh, view.cells.fault, faults);
+    const FaultProximity faults = model_proximity(model);
     openvdb::GridPtrVec grids;
-    const auto add = [&](const std::string& name, const Property& property, const std::vector<double>& values) {
-        const auto grid = make_grid(view, property, values, lattice, sides, options.progress);
+    const auto add = [&](const std::string& name, const Property& property, const std::vector<double>& values,
+                         const FaultProximity& barriers) {
+        const auto grid = make_grid(view, property, values, lattice, barriers, options.progress);
         grid->setName(name);
         grid->setTransform(make_transform(lattice, model.frame, options.local_origin));
         describe(*grid, model.frame, options.local_origin);
@@ -179,11 +180,11 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
         grids.push_back(grid);
     };
     for (std::size_t p = 0; p < names.size(); ++p) {
-        add(names[p], model.properties[p], model.vertex_values.values[p]);
+        add(names[p], model.properties[p], model.vertex_values.values[p], faults.seen_by(p));
     }
     if (!names.empty()) {
         add(extrapolation_name, {extrapolation_name, "", Scale::linear, Kind::continuous, {}},
-            extrapolation_of_values(model.vertex_values));
+            extrapolation_of_values(model.vertex_values), faults);
     }
     openvdb::MetaMap meta;
     describe(meta, model.frame, options.local_origin);

@@ -469,6 +469,7 @@ CellStatistics statistics(const Model& model, const Tessellation& tessellation, 
         }
         final_report->fault_crossing_edges = fault_crossing_edges(model, mesh).size();
         final_report->fidelity = fidelity(model, mesh);
+        final_report->empty_blocks = empty_blocks(model, mesh, cells);
     }
     return cell_statistics(model, mesh, cells);
 }
@@ -489,7 +490,7 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
         prepare_boundary(options, model, report, progress);
         name_regions(options, model);
     }
-    const FaultProximity proximity(model.faults);
+    const FaultProximity proximity = model_proximity(model);
     InitialVertices initial(model);
     {
         const Stopwatch watch(report.seconds["density"]);

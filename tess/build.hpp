@@ -41,6 +41,7 @@ struct BuildReport {
     CellStatistics final;
     std::size_t fault_crossing_edges = 0;
     std::vector<Fidelity> fidelity;
+    std::vector<EmptyBlock> empty_blocks;
     std::map<std::string, double> seconds;  ///< density, boundary, refine, estimate
     Diagnostics diagnostics;
 };

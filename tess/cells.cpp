@@ -12,6 +12,7 @@
 #include "tess/insertion_rule.hpp"
 #include "tess/mesh_walk.hpp"
 #include "tess/model_bounds.hpp"
+#include "tess/own_side.hpp"
 #include "tess/point_grid.hpp"
 #include "tess/quality.hpp"
 
@@ -37,7 +38,7 @@ class Explainer {
   public:
     Explainer(const Model& model, const TetMesh& mesh)
         : mesh_(mesh),
-          proximity_(model.faults),
+          proximity_(model_proximity(model)),
           rule_(model.criteria, model.domain, model.frame, proximity_, model.properties, model.vertex_values) {}
 
     Reason operator()(const std::array<std::uint32_t, 4>& cell) {
@@ -357,7 +358,7 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
     s.vertices = mesh.points.size();
     s.tetrahedra = mesh.cells.size();
     s.regions = static_cast<std::size_t>(cells.region_count);
-    const FaultProximity proximity(model.faults);
+    const FaultProximity proximity = model_proximity(model);
     const InsertionRule rule(model.criteria, model.domain, model.frame, proximity, model.properties,
                              model.vertex_values);
     std::size_t skinny = 0;
@@ -407,6 +408,41 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
     return s;
 }
 
+std::vector<EmptyBlock> empty_blocks(const Model& model, const TetMesh& mesh, const CellTable& cells) {
+    std::vector<EmptyBlock> blocks(static_cast<std::size_t>(cells.region_count));
+    std::vector<std::size_t> asked;
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (!std::ranges::all_of(model.samples.values[p], [](double value) { return std::isnan(value); })) {
+            asked.push_back(p);
+        }
+    }
+    std::vector<std::vector<char>> valued(asked.size(), std::vector<char>(blocks.size(), 0));
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        if (cells.region[c] < 0) {
+            continue;
+        }
+        const auto region = static_cast<std::size_t>(cells.region[c]);
+        blocks[region].volume += cell_quality(corners(mesh, mesh.cells[c])).volume / model.frame.z_scale;
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            const auto& values = model.vertex_values.values[asked[i]];
+            valued[i][region] |=
+                std::ranges::none_of(mesh.cells[c], [&](std::uint32_t v) { return std::isnan(values[v]); });
+        }
+    }
+    for (std::size_t region = 0; region < blocks.size(); ++region) {
+        blocks[region].region = static_cast<std::int32_t>(region);
+        blocks[region].name = cells.region_name[region];
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            if (valued[i][region] == 0) {
+                blocks[region].properties.push_back(model.properties[asked[i]].name);
+            }
+        }
+        blocks[region].of_all = blocks[region].properties.size() == asked.size();
+    }
+    std::erase_if(blocks, [](const EmptyBlock& block) { return block.properties.empty(); });
+    return blocks;
+}
+
 std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh) {
     std::vector<CrossingEdge> crossing;
     const FaultProximity proximity(model.faults);
@@ -440,6 +476,11 @@ std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh) {
     std::vector<Fidelity> result(model.properties.size());
     std::vector<double> squares(model.properties.size(), 0);
     MeshWalk walk(mesh);
+    const FaultProximity faults = model_proximity(model);
+    std::vector<OwnSide> sides;
+    for (std::size_t property = 0; property < result.size(); ++property) {
+        sides.emplace_back(mesh, std::span<const std::int32_t>(), faults.seen_by(property));
+    }
     for (std::size_t i = 0; i < model.samples.size(); ++i) {
         const Vec3& p = model.samples.positions[i];
         if (!model.domain.hull.contains(p)) {
@@ -449,15 +490,18 @@ std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh) {
         if (!position) {
             continue;
         }
-        keep_to_own_side(*position, p, mesh, model.vertices);
+        const std::int32_t gap = gap_fault(mesh.cells[position->cell], model.vertices);
+        if (gap >= 0 && model.faults[static_cast<std::size_t>(gap)].sheet.kind != SurfaceKind::fault) {
+            keep_to_own_side(*position, p, mesh, model.vertices);
+        }
         for (std::size_t property = 0; property < result.size(); ++property) {
             const Property& kind = model.properties[property];
+            const VertexWeights own = sides[property].weights(position->cell, p, position->weights);
             double value = 0;
             double heaviest = -1;
             for (std::size_t k = 0; k < 4; ++k) {
-                const double w = position->weights[k];
-                const double at_vertex =
-                    to_scale(kind, model.vertex_values.values[property][mesh.cells[position->cell][k]]);
+                const double w = own.weights[k];
+                const double at_vertex = to_scale(kind, model.vertex_values.values[property][own.vertices[k]]);
                 if (kind.kind == Kind::categorical) {
                     value = w > heaviest ? at_vertex : value;
                     heaviest = std::max(heaviest, w);

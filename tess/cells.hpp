@@ -59,6 +59,18 @@ struct CellStatistics {
 
 CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells);
 
+/// A region without values: of no property, or of these.
+struct EmptyBlock {
+    std::int32_t region = 0;
+    std::string name;
+    double volume = 0;                    ///< of its cells, true
+    bool of_all = false;                  ///< none of any property that has samples
+    std::vector<std::string> properties;  ///< without a value there, of those that have samples
+};
+
+/// The regions in none of whose cells a property has values: no sample of it can be seen from there. O(cells).
+std::vector<EmptyBlock> empty_blocks(const Model& model, const TetMesh& mesh, const CellTable& cells);
+
 /// Edges within the extent that cross a fault without both ends being seeds of it or of faults that meet it: F1 says
 /// none. Each edge once, as
 /// vertex indices, with the fault; an edge counts when its crossing point lies in the extent.

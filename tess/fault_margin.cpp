@@ -27,22 +27,6 @@ struct Face {
     }
 };
 
-/// Vertex normals, evened out along the rim, so that neighbouring directions of extension agree.
-std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>& rim) {
-    std::vector<Vec3> normals = vertex_normals(mesh);
-    for (int round = 0; round < 3; ++round) {
-        std::vector<Vec3> sum = normals;
-        for (const RimEdge& e : rim) {
-            sum[e.from] = sum[e.from] + 0.5 * normals[e.to];
-            sum[e.to] = sum[e.to] + 0.5 * normals[e.from];
-        }
-        for (std::size_t v = 0; v < sum.size(); ++v) {
-            normals[v] = unit(sum[v]);
-        }
-    }
-    return normals;
-}
-
 /// Part of the face's normal that is tangent to the surface; its length is the sine of the angle between them.
 Vec3 heading(const Face& face, const Vec3& normal) {
     const Vec3 out = face.outward();
@@ -161,6 +145,21 @@ void add_fan(FaultMesh& mesh, const Vec3& center, const Vec3& first, const Vec3&
 }
 
 }  // namespace
+
+std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>& rim) {
+    std::vector<Vec3> normals = vertex_normals(mesh);
+    for (int round = 0; round < 3; ++round) {
+        std::vector<Vec3> sum = normals;
+        for (const RimEdge& e : rim) {
+            sum[e.from] = sum[e.from] + 0.5 * normals[e.to];
+            sum[e.to] = sum[e.to] + 0.5 * normals[e.from];
+        }
+        for (std::size_t v = 0; v < sum.size(); ++v) {
+            normals[v] = unit(sum[v]);
+        }
+    }
+    return normals;
+}
 
 FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap, double reach, double spacing) {
     const Box3 limit = extent.grown(reach);

@@ -9,6 +9,9 @@
 
 namespace terratet {
 
+/// Unit normals at the points, evened out along the rim, so that neighbouring directions of extension agree.
+std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>& rim);
+
 /// Continues the surface across the extent's faces: rims beyond a face, or nearer than `snap` to it from inside, grow
 /// in the tangent direction that heads for the face until they are `reach` beyond it, in rows no farther apart than
 /// `spacing`. Rims nearly parallel to their way there, surfaces nearly parallel to the face (below 10°), and strips

@@ -2,33 +2,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_proximity.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
+#include "tess/estimation_barriers.hpp"
 #include "tess/fault_approach.hpp"
-#include "tess/fault_rims.hpp"
 #include "tess/triangle_grid.hpp"
 #include "tess/triangle_tree.hpp"
 
 namespace terratet {
+namespace {
 
-struct FaultProximity::Impl {
+constexpr double least_step = 1e-9;  ///< off a barrier, over the spacing
+
+/// What does not depend on what bars.
+struct Sheets {
+    explicit Sheets(std::span<const Fault> given);
+
     std::span<const Fault> faults;
-    std::vector<TriangleTree> sheets;
-    FaultRims rims;
+    std::vector<TriangleTree> trees;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
     std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
     std::vector<double> squared_protection;  ///< of each triangle in the zone
     std::set<std::pair<std::int32_t, std::int32_t>> meeting;
 };
 
-FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_unique<Impl>()) {
-    impl_->faults = faults;
+Sheets::Sheets(std::span<const Fault> given) : faults(given) {
     std::vector<TriangleCorners> triangles;
     std::vector<double> reach;
     for (const Fault& fault : faults) {
-        const auto index = static_cast<std::int32_t>(impl_->sheets.size());
+        const auto index = static_cast<std::int32_t>(trees.size());
         for (const Surface* part : {&fault.sheet, &fault.margin}) {
             for (const Triangle& t : part->triangles) {
                 triangles.push_back({part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]});
@@ -36,13 +43,12 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
         }
         for (const double radius : protection_radii(faults, static_cast<std::size_t>(index))) {
             reach.push_back(radius);
-            impl_->squared_protection.push_back(radius * radius);
+            squared_protection.push_back(radius * radius);
         }
-        impl_->fault_of.resize(triangles.size(), index);
-        impl_->sheets.emplace_back(fault.sheet);
+        fault_of.resize(triangles.size(), index);
+        trees.emplace_back(fault.sheet);
     }
-    impl_->rims = FaultRims(faults);
-    impl_->zone = TriangleGrid(std::move(triangles), reach);
+    zone = TriangleGrid(std::move(triangles), reach);
     std::map<Vec3, std::vector<std::int32_t>> users;
     for (std::size_t f = 0; f < faults.size(); ++f) {
         for (const Vec3& p : faults[f].sheet.vertices) {
@@ -52,42 +58,100 @@ FaultProximity::FaultProximity(std::span<const Fault> faults) : impl_(std::make_
     for (const auto& [p, list] : users) {
         for (const std::int32_t a : list) {
             for (const std::int32_t b : list) {
-                impl_->meeting.emplace(a, b);
+                meeting.emplace(a, b);
             }
         }
     }
 }
+
+/// A fault that bars: its sheet, and what goes on from it.
+struct Bar {
+    std::size_t fault;
+    const TriangleTree* sheet;
+    TriangleTree beyond;
+};
+
+}  // namespace
+
+struct FaultProximity::Impl {
+    Impl(std::shared_ptr<const Sheets> of, const std::vector<Barrier>& barriers, const Box3& inner)
+        : sheets(std::move(of)), covered(inner) {
+        for (std::size_t f = 0; f < barriers.size(); ++f) {
+            if (barriers[f].bars) {
+                bars.push_back({f, &sheets->trees[f], TriangleTree(barriers[f].beyond)});
+                rims.add(barriers[f].rims, sheets->faults[f].spacing);
+            }
+        }
+        rims.finish();
+    }
+
+    [[nodiscard]] const TriangleTree& tree(std::int32_t fault) const {
+        assert(fault >= 0 && static_cast<std::size_t>(fault) < sheets->trees.size());
+        return sheets->trees[static_cast<std::size_t>(fault)];
+    }
+
+    std::shared_ptr<const Sheets> sheets;
+    std::vector<Bar> bars;
+    FaultRims rims;
+    Box3 covered;                          ///< what goes on beyond a sheet stays out of it: a convex place
+    std::unique_ptr<FaultProximity> hard;  ///< with the horizons among the barriers
+    std::vector<bool> hard_for;            ///< of each property
+};
+
+FaultProximity::FaultProximity(std::span<const Fault> faults) : FaultProximity(faults, sheets_as_barriers(faults)) {}
+
+FaultProximity::FaultProximity(std::span<const Fault> faults, const Barriers& barriers) {
+    const auto sheets = std::make_shared<const Sheets>(faults);
+    impl_ = std::make_unique<Impl>(sheets, barriers.soft, barriers.covered);
+    if (!barriers.hard.empty()) {
+        impl_->hard_for = barriers.hard_for;
+        impl_->hard = std::make_unique<FaultProximity>(
+            FaultProximity{std::make_unique<Impl>(sheets, barriers.hard, barriers.covered)});
+    }
+}
+
+FaultProximity::FaultProximity(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 FaultProximity::~FaultProximity() = default;
 FaultProximity::FaultProximity(FaultProximity&&) noexcept = default;
 FaultProximity& FaultProximity::operator=(FaultProximity&&) noexcept = default;
 
 std::span<const Fault> FaultProximity::faults() const {
-    return impl_->faults;
+    return impl_->sheets->faults;
 }
 
 bool FaultProximity::empty() const {
-    return impl_->sheets.empty();
+    return impl_->sheets->faults.empty();
 }
 
 std::int32_t FaultProximity::protecting_fault(const Vec3& p) const {
-    for (const std::uint32_t i : impl_->zone.candidates(p)) {
-        if (impl_->zone.squared_distance_to(i, p) < impl_->squared_protection[i]) {
-            return impl_->fault_of[i];
+    const Sheets& sheets = *impl_->sheets;
+    for (const std::uint32_t i : sheets.zone.candidates(p)) {
+        if (sheets.zone.squared_distance_to(i, p) < sheets.squared_protection[i]) {
+            return sheets.fault_of[i];
         }
     }
     return -1;
 }
 
 bool FaultProximity::crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const {
-    assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
-    return impl_->sheets[static_cast<std::size_t>(fault)].meets(a, b);
+    return impl_->tree(fault).meets(a, b);
+}
+
+const FaultProximity& FaultProximity::seen_by(std::size_t property) const {
+    const bool hard = property < impl_->hard_for.size() && impl_->hard_for[property];
+    return hard ? *impl_->hard : *this;
+}
+
+const FaultProximity& FaultProximity::with_horizons() const {
+    return impl_->hard ? *impl_->hard : *this;
 }
 
 bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except) const {
-    for (std::size_t f = 0; f < impl_->sheets.size(); ++f) {
-        const bool bars = impl_->faults[f].sheet.kind == SurfaceKind::fault;
-        if (bars && static_cast<std::int32_t>(f) != except && impl_->sheets[f].meets(a, b)) {
+    const bool within = impl_->covered.contains(a) && impl_->covered.contains(b);
+    for (const Bar& bar : impl_->bars) {
+        if (static_cast<std::int32_t>(bar.fault) != except &&
+            (bar.sheet->meets(a, b) || (!within && bar.beyond.meets(a, b)))) {
             return true;
         }
     }
@@ -98,18 +162,53 @@ double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
     return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
 }
 
+Vec3 FaultProximity::off_barriers(const Vec3& p, std::int32_t fault, std::int8_t side) const {
+    if (impl_->hard) {
+        return impl_->hard->off_barriers(p, fault, side);
+    }
+    if (!crosses_any(p, p)) {
+        return p;
+    }
+    Vec3 way;
+    double spacing = 0;
+    const Bar* told = nullptr;  // whose side is the one asked for
+    double sign = 1;
+    for (const Bar& bar : impl_->bars) {
+        const Vec3 normal = bar.sheet->normal_at(p) + bar.beyond.normal_at(p);
+        if (normal == Vec3{}) {
+            continue;
+        }
+        const bool asked = side != 0 && (fault < 0 || static_cast<std::int32_t>(bar.fault) == fault);
+        way = way + (asked && side < 0 ? -1.0 : 1.0) / length(normal) * normal;
+        spacing = std::max(spacing, impl_->sheets->faults[bar.fault].spacing);
+        if (told == nullptr || (asked && fault >= 0)) {
+            told = &bar;
+            sign = asked && side < 0 ? -1 : 1;
+        }
+    }
+    const double rounding = 1e-15 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+    double step = std::max({least_step * spacing, rounding, std::numeric_limits<double>::min()});
+    for (int doubling = 0; doubling < 40; ++doubling, step *= 2) {
+        const Vec3 beside = p + step * way;
+        const std::int8_t found =
+            told->sheet->normal_at(p) == Vec3{} ? told->beyond.side_of(beside) : told->sheet->side_of(beside);
+        if (found * sign > 0 && !crosses_any(beside, beside)) {
+            return beside;
+        }
+    }
+    return p;
+}
+
 bool FaultProximity::meet(std::int32_t fault, std::int32_t other) const {
-    return fault == other || impl_->meeting.contains({fault, other});
+    return fault == other || impl_->sheets->meeting.contains({fault, other});
 }
 
 std::int8_t FaultProximity::side_of(std::int32_t fault, const Vec3& p) const {
-    assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
-    return impl_->sheets[static_cast<std::size_t>(fault)].side_of(p);
+    return impl_->tree(fault).side_of(p);
 }
 
 double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {
-    assert(fault >= 0 && static_cast<std::size_t>(fault) < impl_->sheets.size());
-    return impl_->sheets[static_cast<std::size_t>(fault)].distance_to(p);
+    return impl_->tree(fault).distance_to(p);
 }
 
 bool is_above_ground(const FaultProximity& faults, const Vec3& p) {

@@ -14,10 +14,16 @@
 
 namespace terratet {
 
+struct Barriers;
+struct Model;
+
 class FaultProximity {
   public:
-    /// \pre The faults outlive this.
+    /// The sheets of faults bar estimation, as far as they go. \pre The faults outlive this.
     explicit FaultProximity(std::span<const Fault> faults);
+
+    /// What bars estimation is given (tess/estimation_barriers.hpp): for a model's faults model_proximity() does it.
+    FaultProximity(std::span<const Fault> faults, const Barriers& barriers);
     ~FaultProximity();
     FaultProximity(FaultProximity&&) noexcept;
     FaultProximity& operator=(FaultProximity&&) noexcept;
@@ -32,14 +38,23 @@ class FaultProximity {
     /// Does the closed segment meet fault f's sheet? Exact predicates. O(log n).
     [[nodiscard]] bool crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const;
 
-    /// Does it meet any sheet that bars estimation, a fault's and not a horizon's or the topography's, but for `except`
-    /// (−1: all count)?
+    /// As the estimation of a property sees it: with the horizons as barriers where they are hard for it. Itself else.
+    [[nodiscard]] const FaultProximity& seen_by(std::size_t property) const;
+    /// As the strictest of the properties does.
+    [[nodiscard]] const FaultProximity& with_horizons() const;
+
+    /// Does it meet anything that bars estimation, but for what belongs to fault `except` (−1: all count)?
     [[nodiscard]] bool crosses_any(const Vec3& a, const Vec3& b, std::int32_t except = -1) const;
 
-    /// How freely a sees b: 0 where the closed segment meets a sheet, else the distance at which it passes the nearest
-    /// free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets a
-    /// sheet: what estimators weigh samples with whose field is to be continuous round a fault's end.
+    /// How freely a sees b: 0 where the closed segment meets a barrier, else the distance at which it passes the
+    /// nearest free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets
+    /// a barrier: what estimators weigh samples with whose field is to be continuous round a fault's end.
     [[nodiscard]] double openness(const Vec3& a, const Vec3& b) const;
+
+    /// Where a place that lies exactly on barriers, hard horizons among them, is thought to be: a billionth of the
+    /// spacing away or little more, on the given side of `fault` (−1: of all that meet there), and on the + side where
+    /// none is given. Any other place stays. A pure function of its arguments.
+    [[nodiscard]] Vec3 off_barriers(const Vec3& p, std::int32_t fault = -1, std::int8_t side = 0) const;
 
     /// Do the sheets of the two share a point? A fault meets itself.
     [[nodiscard]] bool meet(std::int32_t fault, std::int32_t other) const;
@@ -54,8 +69,13 @@ class FaultProximity {
 
   private:
     struct Impl;
+    explicit FaultProximity(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
+
+/// A model's faults with all that bars the estimation of its properties: barriers go on beyond the extent, and horizons
+/// bar where they are hard. \pre The model's faults outlive it.
+FaultProximity model_proximity(const Model& model);
 
 /// Above any topography among the surfaces?
 bool is_above_ground(const FaultProximity& faults, const Vec3& p);

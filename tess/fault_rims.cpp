@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <utility>
 
 #include "tess/sight.hpp"
@@ -14,40 +13,17 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 8;
 
-/// Edges of one triangle only, of all faults together: where one fault ends on another there is no way round it.
-using EdgePlace = std::array<Vec3, 2>;
-std::map<EdgePlace, int> uses_of_edges(std::span<const Fault> faults) {
-    std::map<EdgePlace, int> uses;
-    for (const Fault& fault : faults) {
-        for (const Triangle& t : fault.sheet.triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Vec3& a = fault.sheet.vertices[t[i]];
-                const Vec3& b = fault.sheet.vertices[t[(i + 1) % 3]];
-                ++uses[a < b ? EdgePlace{a, b} : EdgePlace{b, a}];
-            }
-        }
-    }
-    return uses;
-}
-
 }  // namespace
 
-FaultRims::FaultRims(std::span<const Fault> faults) {
-    std::map<EdgePlace, int> uses = uses_of_edges(faults);
-    for (const Fault& fault : faults) {
-        if (fault.sheet.kind != SurfaceKind::fault) {
-            continue;  // no barrier
-        }
-        for (const Triangle& t : fault.sheet.triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Vec3& a = fault.sheet.vertices[t[i]];
-                const Vec3& b = fault.sheet.vertices[t[(i + 1) % 3]];
-                if (uses[a < b ? EdgePlace{a, b} : EdgePlace{b, a}] == 1) {
-                    edges_.push_back({a, b, fault.spacing});
-                }
-            }
+void FaultRims::add(const std::vector<EdgePlace>& rims, double spacing) {
+    for (const auto& [from, to] : rims) {
+        if (spacing > 0) {
+            edges_.push_back({from, to, spacing});
         }
     }
+}
+
+void FaultRims::finish() {
     if (!edges_.empty()) {
         split(0, static_cast<std::uint32_t>(edges_.size()));
     }
@@ -100,9 +76,7 @@ double FaultRims::clearance(const Vec3& a, const Vec3& b) const {
         }
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
             const Edge& edge = edges_[i];
-            if (edge.spacing > 0) {
-                least = std::min(least, segment_distance(a, b, edge.from, edge.to) / edge.spacing);
-            }
+            least = std::min(least, segment_distance(a, b, edge.from, edge.to) / edge.spacing);
         }
     }
     return least;

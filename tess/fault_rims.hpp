@@ -2,20 +2,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the free rims of fault sheets, and how near a line of sight passes by them.
+/// Internal: the free rims of barriers, and how near a line of sight passes by them.
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/geometry.hpp"
 
 namespace terratet {
+
+/// An edge's two ends.
+using EdgePlace = std::array<Vec3, 2>;
 
 class FaultRims {
   public:
     FaultRims() = default;
-    explicit FaultRims(std::span<const Fault> faults);
+
+    /// \param spacing  of their barrier, the unit of distances from them; rims are left out where it is 0
+    void add(const std::vector<EdgePlace>& rims, double spacing);
+
+    /// After the last one was added. O(n log n).
+    void finish();
 
     /// The segment's distance from the nearest rim, each in units of its fault's spacing, but at most 1. O(log n) far
     /// from rims.

@@ -87,7 +87,7 @@ double InsertionRule::variation_violation(const JudgedCell& cell) const {
             // An edge across a fault is exempt: a jump there is what the fault is for.
             const double df =
                 scaled_difference(properties_[property], column[cell.vertices[i]], column[cell.vertices[j]]);
-            if (df > limit * worst && !faults_.crosses_any(cell.points[i], cell.points[j])) {
+            if (df > limit * worst && !faults_.seen_by(property).crosses_any(cell.points[i], cell.points[j])) {
                 worst = df / limit;
             }
         }

@@ -11,11 +11,35 @@ namespace {
 
 constexpr std::size_t most_cells = 400;  ///< searched around a cell
 constexpr double least_weight = 1e-12;   ///< less of what is seen says nothing
+constexpr double beside = 1e-6;          ///< of an edge, short of its ends
 
 }  // namespace
 
-VertexWeights OwnSide::weights(std::uint32_t cell, const Vec3& p, std::array<double, 4> barycentric) const {
+bool are_parted(const FaultProximity& faults, const Vec3& a, const Vec3& b) {
+    const Vec3 short_of_end = beside * (b - a);
+    return faults.crosses_any(a + short_of_end, b - short_of_end);
+}
+
+OwnSide::OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const FaultProximity& faults,
+                 const Box3& extent)
+    : mesh_(mesh), gap_(gap), across_(mesh.cells.size(), 0), faults_(faults) {
+    for (std::size_t c = 0; c < (faults.empty() || extent.empty() ? 0 : mesh.cells.size()); ++c) {
+        const auto& v = mesh.cells[c];
+        if (gap[c] >= 0 ||
+            std::ranges::all_of(v, [&](std::uint32_t corner) { return extent.contains(mesh.points[corner]); })) {
+            continue;
+        }
+        for (std::size_t i = 1; i < 4 && across_[c] == 0; ++i) {
+            for (std::size_t j = 0; j < i && across_[c] == 0; ++j) {
+                across_[c] = are_parted(faults, mesh.points[v[i]], mesh.points[v[j]]) ? 1 : 0;
+            }
+        }
+    }
+}
+
+VertexWeights OwnSide::weights(std::uint32_t cell, const Vec3& place, std::array<double, 4> barycentric) const {
     const auto& corners = mesh_.cells[cell];
+    const Vec3 p = faults_.off_barriers(place);
     double sum = 0;
     std::size_t nearest = 4;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -30,13 +54,8 @@ VertexWeights OwnSide::weights(std::uint32_t cell, const Vec3& p, std::array<dou
             nearest = k;
         }
     }
-    if (nearest == 4 && !faults_.crosses_any(p, p)) {
+    if (nearest == 4) {
         return nearest_seen_around(cell, p);
-    }
-    if (nearest == 4) {  // on the fault: either side is its own
-        const auto corner = std::ranges::min_element(
-            corners, {}, [&](std::uint32_t v) { return squared_distance(p, mesh_.points[v]); });
-        nearest = static_cast<std::size_t>(corner - corners.begin());
     }
     if (!(sum > least_weight)) {
         barycentric = {};

@@ -19,6 +19,7 @@ struct Property {
     Scale scale = Scale::linear;
     Kind kind = Kind::continuous;
     std::vector<std::string> classes;  ///< categorical only: the value i stands for classes[i]; sorted by name
+    bool hard_horizons = false;  ///< horizons bar its estimation, as faults do: what lies above says nothing below
 
     friend bool operator==(const Property&, const Property&) = default;
 };

@@ -12,8 +12,9 @@
 
 namespace terratet {
 
-/// All kinds part regions. A fault bars estimation as well; topography has nothing above. A domain as read is a polygon
-/// in plan, triangulated; prepared it is the walls over the polygon's edges (tess/outline.hpp), with nothing beyond.
+/// All kinds part regions. A fault bars estimation as well, a horizon that of some properties; topography has nothing
+/// above. A domain as read is a polygon in plan, triangulated; prepared it is the walls over the polygon's edges
+/// (tess/outline.hpp), with nothing beyond.
 enum class SurfaceKind { fault, horizon, topography, domain };
 
 /// "fault", "horizon", "topography", "domain".

@@ -226,6 +226,25 @@ double TriangleTree::distance_to(const Vec3& p) const {
     return impl_ ? std::sqrt(impl_->nearest(p).squared_distance) : std::numeric_limits<double>::infinity();
 }
 
+std::optional<Vec3> TriangleTree::nearest_to(const Vec3& p) const {
+    return impl_ ? std::optional(impl_->nearest(p).place) : std::nullopt;
+}
+
+Vec3 TriangleTree::normal_at(const Vec3& p) const {
+    Vec3 sum;
+    if (impl_) {
+        static_cast<void>(impl_->any([&](const Box3& box) { return !box.contains(p); },
+                                     [&](const Corners& c) {
+                                         if (CGAL::do_intersect(triangle(c), point(p))) {
+                                             const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
+                                             sum = sum + normal / length(normal);
+                                         }
+                                         return false;
+                                     }));
+    }
+    return sum;
+}
+
 std::int8_t TriangleTree::side_of(const Vec3& p) const {
     if (!impl_) {
         return 0;

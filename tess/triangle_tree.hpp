@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "tess/surface.hpp"
 
@@ -26,6 +27,12 @@ class TriangleTree {
 
     /// To the nearest triangle; infinity without any. O(log n).
     [[nodiscard]] double distance_to(const Vec3& p) const;
+
+    /// The point of the surface nearest to p; none without any triangle. O(log n).
+    [[nodiscard]] std::optional<Vec3> nearest_to(const Vec3& p) const;
+
+    /// The sum of the unit normals of the triangles that hold p; zero where none does. Exact in which these are.
+    [[nodiscard]] Vec3 normal_at(const Vec3& p) const;
 
     /// On which side is p: +1 where the normals point, −1, or 0 on the surface? Told by the exact orientation to a
     /// triangle that nothing of the surface hides from p. Beyond a rim the surface is thought to go on. 0 without any

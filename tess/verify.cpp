@@ -87,7 +87,7 @@ class Verifier {
   public:
     Verifier(const Model& model, const ValueSourceFactory& factory)
         : model_(model),
-          proximity_(model.faults),
+          proximity_(model_proximity(model)),
           factory_(factory),
           source_(factory ? factory(model, proximity_) : ValueSource()),
           tessellation_(tessellate(model)),
@@ -253,7 +253,7 @@ class Verifier {
                 const auto a = mesh_.cells[c][i];
                 const auto b = mesh_.cells[c][j];
                 if (limit > 0 && scaled_difference(model_.properties[p], column[a], column[b]) > limit * (1 + 1e-9) &&
-                    !proximity_.crosses_any(point(a), point(b))) {
+                    !proximity_.seen_by(p).crosses_any(point(a), point(b))) {
                     return false;
                 }
             }

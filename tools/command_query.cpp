@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
+#include <set>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -36,6 +37,7 @@ class Query final : public Command {
                    {{"no-sd"}, "", "leave standard deviations and half-widths out: empty, and faster", &no_deviation_},
                    {{"s_srs", "source-crs"}, "CRS", "of the points, if they carry none; the model's by default", &crs_},
                    {{"columns"}, "MEANING=COLUMN", "a column not found by its name: x, y, z", &columns_},
+                   {{"side"}, "+|-", "of a fault that a place lies exactly on; + by default", &side_},
                    {{"threads"}, "N", "as many as there are cores by default", &threads_},
                    {{"q", "quiet"}, "", "no remarks on standard error", &quiet_}}}},
                 {"MODEL.gpkg VERB POINTS", 3, 3, &words_}};
@@ -45,12 +47,15 @@ class Query final : public Command {
         if (words_[1] != "value") {
             throw UsageError("query: '" + words_[1] + "' is not known; there is value");
         }
+        if (side_ != "+" && side_ != "-") {
+            throw UsageError("query --side: '" + side_ + "' is neither + nor -");
+        }
         const ThreadLimit threads(threads_);
         const Model model = load_model(words_[0]);
         Diagnostics diagnostics;
         const PointTable points = read_points(parse_source(words_[2] == "-" ? "/vsistdin/" : words_[2]), model.frame,
                                               crs_, column_names(columns_), diagnostics);
-        const FaultProximity faults(model.faults);
+        const FaultProximity faults = model_proximity(model);
         const EstimatorPlan plan =
             estimator_.empty() ? parse_estimator_plan(model.estimator) : EstimatorPlan(parse_estimator(estimator_));
         const ModelEstimator estimator(model, faults, plan, {}, {.uncertainty = !no_deviation_});
@@ -80,13 +85,19 @@ class Query final : public Command {
 
     [[nodiscard]] std::string header(const Model& model, const Table& table) const {
         std::string row;
-        const auto add = [&](const std::string& name) {
-            row += row.empty() ? "" : ",";
+        std::set<std::string> taken;
+        for (const auto& column : table.columns) {
+            row += taken.empty() ? "" : ",";
+            append_csv_text(row, column);
+            taken.insert(column);
+        }
+        const auto add = [&](std::string name) {
+            while (!taken.insert(name).second) {
+                name += "_estimate";  // the table's own are left as they are
+            }
+            row += ',';
             append_csv_text(row, name);
         };
-        for (const auto& column : table.columns) {
-            add(column);
-        }
         for (const std::size_t p : asked_) {
             const Property& property = model.properties[p];
             add(property.name);
@@ -115,7 +126,7 @@ class Query final : public Command {
             excluded_ += is_finite(points.positions[row]) && !modelled ? 1 : 0;
             if (modelled) {
                 query_of[row - begin] = queries.size();
-                queries.push_back({points.positions[row], -1, 0});
+                queries.push_back({points.positions[row], -1, static_cast<std::int8_t>(side_ == "-" ? -1 : 1)});
             }
         }
         const auto estimates = estimator.estimates(queries);
@@ -191,6 +202,7 @@ class Query final : public Command {
     std::vector<std::string> columns_;
     std::string estimator_;
     std::string crs_;
+    std::string side_ = "+";
     std::uint64_t threads_ = 0;
     std::size_t excluded_ = 0;
     bool probabilities_ = false;
@@ -208,7 +220,7 @@ CommandEntry query_command() {
             "input. CSV on standard output: a row each in the same order, the table's columns, then NAME, NAME_sd, "
             "NAME_ci95 (half-width of the 95 % interval) and NAME_extrapolation of each property, empty where there is "
             "no value: also above the ground and outside the "
-            "domain.",
+            "domain. A name that the table has already gets _estimate behind it.",
             {"terratet query site.gpkg value places.csv > values.csv",
              "printf 'x,y,z\\n525500,6792000,-200\\n' | terratet query site.gpkg value -"},
             [] { return std::make_unique<Query>(); }};

@@ -67,7 +67,7 @@ class Validate final : public Command {
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
             model = input(diagnostics, display.callback());
-            const FaultProximity faults(model.faults);
+            const FaultProximity faults = model_proximity(model);
             CrossValidationOptions options;
             options.max_folds = folds_;
             all = validate_all(model, faults, specs, options, display.callback());

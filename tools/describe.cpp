@@ -48,6 +48,9 @@ Json property_json(const Model& model, std::size_t p) {
     if (!property.unit.empty()) {
         json["unit"] = property.unit;
     }
+    if (property.hard_horizons) {
+        json["horizons"] = "hard";
+    }
     if (property.kind == Kind::categorical) {
         json["classes"] = property.classes;
     } else {

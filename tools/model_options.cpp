@@ -136,19 +136,45 @@ PropertyLimit parse_limit(const std::string& option, const std::string& text) {
     return {text.substr(0, equals), *limit};
 }
 
+/// Which properties horizons bar: none, all, or those named.
+struct HardHorizons {
+    bool all = false;
+    std::vector<std::string> properties;
+};
+
+HardHorizons parse_horizon(const std::string& text) {
+    if (text == "soft" || text == "hard") {
+        return {text == "hard", {}};
+    }
+    constexpr std::string_view some = "hard=";
+    HardHorizons hard;
+    if (text.starts_with(some)) {
+        hard.properties = split(text.substr(some.size()), ',');
+    }
+    if (hard.properties.empty() || std::ranges::count(hard.properties, std::string()) > 0) {
+        throw UsageError(fmt::format("--horizon: '{}' is not soft, hard, or hard=P,Q with names of properties", text));
+    }
+    return hard;
+}
+
+std::vector<Property>::const_iterator find_property(const std::string& option, const std::string& name,
+                                                    const std::vector<Property>& properties) {
+    const auto found = std::ranges::find(properties, name, &Property::name);
+    if (found == properties.end()) {
+        std::string known;
+        for (const auto& property : properties) {
+            known += (known.empty() ? "" : ", ") + property.name;
+        }
+        throw UsageError(fmt::format("{}: there is no property '{}'; there is {}", option, name, known));
+    }
+    return found;
+}
+
 void set_limits(const std::string& option, const std::vector<std::string>& texts, double VariationLimits::*which,
                 const std::vector<Property>& properties, Criteria& criteria) {
     for (const auto& text : texts) {
         const auto [name, limit] = parse_limit(option, text);
-        const auto named = [&, &wanted = name](const Property& property) { return property.name == wanted; };
-        const auto found = std::find_if(properties.begin(), properties.end(), named);
-        if (found == properties.end()) {
-            std::string known;
-            for (const auto& property : properties) {
-                known += (known.empty() ? "" : ", ") + property.name;
-            }
-            throw UsageError(fmt::format("{}: there is no property '{}'; there is {}", option, name, known));
-        }
+        const auto found = find_property(option, name, properties);
         criteria.variation.resize(properties.size());
         criteria.variation[static_cast<std::size_t>(found - properties.begin())].*which = limit;
     }
@@ -234,6 +260,11 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "HOW",
               "canonical (default) keeps all samples that fit --lmin; paper deletes as the paper does",
               &a.density},
+             {{"horizon"},
+              "HOW",
+              "soft (default): values run through horizons; hard: horizons bar, as faults do; hard=P,Q for some "
+              "properties",
+              &a.horizon},
              {{"region-name"},
               "X,Y,Z=NAME",
               "what the region (fault block) is called that holds a point",
@@ -282,6 +313,7 @@ void check_model_arguments(const ModelArguments& a) {
             parse_limit(option, text);
         }
     }
+    parse_horizon(a.horizon);
     for (const auto& text : a.region_names) {
         parse_region_name(text);
     }
@@ -296,6 +328,17 @@ void check_model_arguments(const ModelArguments& a) {
     parse_estimator(a.estimator);
     if (a.max_vertices == 0) {
         throw UsageError("--max-vertices: at least 1 is needed");
+    }
+}
+
+void set_horizons(const ModelArguments& a, Site& site) {
+    const HardHorizons hard = parse_horizon(a.horizon);
+    for (Property& property : site.properties) {
+        property.hard_horizons = hard.all;
+    }
+    for (const std::string& name : hard.properties) {
+        const auto found = find_property("--horizon", name, site.properties);
+        site.properties[static_cast<std::size_t>(found - site.properties.cbegin())].hard_horizons = true;
     }
 }
 

@@ -27,6 +27,7 @@ struct ModelArguments {
     double dihedral_deg = Criteria{}.dihedral_deg;
     double v_min = 0;
     double v_max = 0;
+    std::string horizon = "soft";
     std::vector<std::string> region_names;
     std::string density = "canonical";
     std::string fault_mode = "paired";
@@ -42,6 +43,9 @@ std::vector<OptionGroup> model_options(ModelArguments& arguments);
 
 /// Everything that can be refused before the inputs are read: words, numbers, contradictions. Throws UsageError.
 void check_model_arguments(const ModelArguments& arguments);
+
+/// Notes in the site's properties which of them horizons bar. Throws UsageError for a property there is none of.
+void set_horizons(const ModelArguments& arguments, Site& site);
 
 /// In the frame and with the properties of `site`. Throws UsageError: also for a property there is none of.
 BuildOptions build_options(const ModelArguments& arguments, const Site& site);

@@ -56,6 +56,7 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     const auto begin = Clock::now();
     Site site = read_site(site_inputs(site_arguments, run.strict), record.diagnostics, record.counts, progress);
     composite_as_asked(site, site_arguments, record.diagnostics);
+    set_horizons(arguments, site);
     record.counts.samples = site.samples.size();
     record.seconds["read"] = seconds_since(begin);
 
@@ -83,7 +84,7 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
 }
 
 void describe_uncertainty(Model& model) {
-    const FaultProximity faults(model.faults);
+    const FaultProximity faults = model_proximity(model);
     const ModelEstimator estimator(model, faults, parse_estimator_plan(model.estimator), {}, {.uncertainty = true});
     add_uncertainty(model, estimator);
     model.estimator = estimator.plan().to_string();  // with the factors found, so that they stay

@@ -158,7 +158,13 @@ Json regions_json(const RunRecord& record) {
     const CellTable& cells = collapsed.cells;
     const auto volumes = region_volumes({collapsed.model, collapsed.mesh, cells});
     for (std::size_t region = 0; region < volumes.size(); ++region) {
-        list.push_back({{"number", region}, {"name", cells.region_name[region]}, {"volume", volumes[region]}});
+        list.push_back({{"number", region},
+                        {"name", cells.region_name[region]},
+                        {"volume", volumes[region]},
+                        {"without_values", Json::array()}});
+    }
+    for (const EmptyBlock& block : record.build->report.empty_blocks) {
+        list[static_cast<std::size_t>(block.region)]["without_values"] = block.properties;
     }
     return list;
 }

@@ -86,7 +86,7 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
              {{"faults"}, "FILE", "GOCAD TSurf, TIN or triangles, or points x, y, z, fault", &a.faults},
              {{"surface"},
               "FILE",
-              "a horizon, as a fault or a raster: it parts regions, and bars nothing",
+              "a horizon, as a fault or a raster: it parts regions, and bars what --horizon says",
               &a.surfaces},
              {{"topography"}, "FILE", "the ground, a raster mostly: nothing is modelled above it", &a.topography},
              {{"domain"}, "FILE", "a polygon in plan: nothing is modelled outside it", &a.domain},

@@ -36,6 +36,22 @@ std::string input_lines(const BuildRecord& build) {
     return out;
 }
 
+std::string volume_text(double volume, const std::string& unit) {
+    return volume >= 1e6 ? fmt::format("{:.3g} M {}³", volume / 1e6, unit) : fmt::format("{:.3g} {}³", volume, unit);
+}
+
+/// A block that no sample can be seen from.
+std::string empty_block_text(const EmptyBlock& block, const std::string& unit) {
+    std::string properties;
+    for (const auto& name : block.properties) {
+        properties += (properties.empty() ? "" : ", ") + name;
+    }
+    const bool named = block.name != fmt::format("region {}", block.region);
+    return fmt::format("Block {}{} ({}) holds no sample{}: no values there", block.region,
+                       named ? ", " + block.name : "", volume_text(block.volume, unit),
+                       block.of_all ? "" : " of " + properties);
+}
+
 std::string build_lines(const BuildRecord& build, const Model& model) {
     const BuildReport& report = build.report;
     const char* unit = model.frame.unit == "metre" ? "m" : model.frame.unit.c_str();
@@ -75,6 +91,9 @@ std::string build_lines(const BuildRecord& build, const Model& model) {
                                   cells.flat_percent, cells.bad_percent, cells.dihedral_min_deg, cells.dihedral_p1_deg,
                                   cells.edge_min, cells.edge_max, unit, counted(cells.regions, "region"),
                                   counted(report.fault_crossing_edges, "edge")));
+    for (const EmptyBlock& block : report.empty_blocks) {
+        out += line("Note", empty_block_text(block, unit));
+    }
     for (std::size_t p = 0; p < report.fidelity.size(); ++p) {
         const auto& property = model.properties[p];
         const auto& fit = report.fidelity[p];

@@ -239,6 +239,7 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
         [](Model& m) { m.frame.origin.x += 1024; },
         [](Model& m) { m.properties[0].unit = "ppm"; },
         [](Model& m) { m.properties[1].classes[0] = "gnei"; },
+        [](Model& m) { m.properties[1].hard_horizons = true; },
         [](Model& m) { m.boreholes[0].collar.z += 1; },
         [](Model& m) { m.boreholes[0].path_depth.push_back(1); },
         [](Model& m) { m.samples.values[0][3] = 0.25000000000000006; },
@@ -253,7 +254,9 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
         [](Model& m) { m.domain.extent.lo.x -= 1; },
         [](Model& m) { m.criteria.l_min *= 2; },
         [](Model& m) { m.criteria.variation.resize(2); },
-        [](Model& m) { m.region_names.push_back({{}, "another"}); },
+        [](Model& m) {
+            m.region_names.push_back({{}, "another"});
+        },
         [](Model& m) { m.density = m.density == DensityMode::paper ? DensityMode::canonical : DensityMode::paper; },
         [](Model& m) { m.fault_options.snap += 1; },
         [](Model& m) { m.faults[0].seeds.push_back({}); },

@@ -90,6 +90,7 @@ struct RandomModel {
         p.unit = odd_name(random);
         p.scale = random.below(2) ? Scale::log10 : Scale::linear;
         p.kind = random.below(3) == 0 ? Kind::categorical : Kind::continuous;
+        p.hard_horizons = p.name.size() % 2 == 0;
         if (p.kind == Kind::categorical) {
             std::set<std::string> classes;
             while (classes.size() < 4) {

@@ -143,7 +143,7 @@ TEST_CASE("R1: inserted vertices never exceed the packing bound, and refinement 
 TEST_CASE("R2: each cell outside the gaps meets every insertion criterion or carries a reason code") {
     std::size_t excused = 0;
     for_each_world([&](const Case& c) {
-        const FaultProximity proximity(c.model.faults);
+        const FaultProximity proximity = model_proximity(c.model);
         for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
             if (c.table.fault[cell] >= 0) {
                 continue;
@@ -183,7 +183,7 @@ TEST_CASE("R3: no inserted vertex is nearer than l_min to any other vertex") {
 TEST_CASE("R4: with l_max at least 4 l_min no edge exceeds l_max but near faults and in smooth cells") {
     int promised = 0;
     for_each_world([&](const Case& c) {
-        const FaultProximity proximity(c.model.faults);
+        const FaultProximity proximity = model_proximity(c.model);
         for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
             const Circumsphere sphere = circumsphere(c.corners(cell));
             if (c.table.fault[cell] < 0 && c.table.reason[cell] != Reason::smooth &&
@@ -245,7 +245,7 @@ TEST_CASE("R7: refining a finished model again inserts, moves and removes nothin
     for_each_world([](const Case& c) {
         Tessellation again = tessellate(c.model);
         VertexValues values = c.model.vertex_values;
-        const FaultProximity proximity(c.model.faults);
+        const FaultProximity proximity = model_proximity(c.model);
         const auto report = refine(again, values, c.model.domain, c.model.frame, proximity, c.model.criteria,
                                    c.model.properties, testing::analytic_field()(c.model, proximity));
         REQUIRE(report.inserted + report.moved + report.removed == 0);

@@ -85,6 +85,37 @@ class Layers(Case):
         inside = [row for row in rows if all(LO[k] <= float(row["xy"[k]]) <= HI[k] for k in (0, 1))]
         self.assertLess(max(float(row["z"]) - ground(float(row["x"]), float(row["y"])) for row in inside), 2)
 
+    def test_a_hard_horizon_is_kept_in_the_model_and_bars_what_it_is_hard_for(self):
+        def contact(x, y):
+            return -50 + 10 * math.sin(x / 40) + 0.1 * (y - 100)
+
+        rows = [f"{x},{y},{z},{'above' if z > contact(x, y) else 'below'},{z}"
+                for x in range(5, 200, 45) for y in range(5, 200, 45) for z in range(-98, 0, 7)]
+        self.write("s.csv", "x,y,z,rock,grade\n" + "\n".join(rows) + "\n")
+        self.write("h.csv", "name,x,y,z\n" + "\n".join(
+            f"top,{x},{y},{contact(x, y):.3f}" for x in range(-60, 261, 8) for y in range(-60, 261, 8)) + "\n")
+        inputs = ["--samples", "s.csv", "--surface", "h.csv", "-s_srs", "local", "-te", "0", "0", "-100", "200", "200", "0", "--lmin",
+                  "20", "--fault-spacing", "12", "--property", "rock:categorical", "--property", "grade"]
+        places = [(x, y, contact(x, y) + d) for x in range(12, 195, 9) for y in range(12, 195, 9) for d in (-9, -5, -2, 2, 5, 9)]
+        self.write("p.csv", "x,y,z\n" + "\n".join(f"{x},{y},{z}" for x, y, z in places) + "\n")
+        right, grades = {}, {}
+        for how in ("soft", "hard=rock", "hard"):
+            self.succeed("build", *inputs, "--horizon", how, "-o", "m.gpkg", "--overwrite", "-q")
+            table = csv.DictReader(self.succeed("query", "m.gpkg", "value", "p.csv", "--no-sd", "-q").stdout.splitlines())
+            rows = list(table)
+            right[how] = sum((row["rock"] == "above") == (z > contact(x, y)) for row, (x, y, z) in zip(rows, places)) / len(places)
+            grades[how] = [row["grade"] for row in rows]
+            info = json.loads(self.succeed("info", "m.gpkg", "--json").stdout)
+            self.assertEqual([p.get("horizons") for p in info["properties"]],
+                             {"soft": [None, None], "hard=rock": ["hard", None], "hard": ["hard", "hard"]}[how])
+        self.assertLess(right["soft"], 0.95)
+        self.assertGreaterEqual(min(right["hard=rock"], right["hard"]), 0.99)
+        self.assertEqual(grades["soft"], grades["hard=rock"])
+        self.assertNotEqual(grades["soft"], grades["hard"])
+        for how, saying in (("firm", "'firm' is not soft, hard"), ("hard=", "'hard=' is not soft, hard")):
+            self.fail_with(2, "build", *inputs, "--horizon", how, "-o", "n.gpkg", saying=saying)
+        self.fail_with(2, "build", *inputs, "--horizon", "hard=Au", "-q", "-o", "n.gpkg", saying="there is no property 'Au'")
+
     def test_ground_that_does_not_cover_the_extent_is_refused(self):
         inputs = twin_inputs() + ["--topography", self.grid("small.asc", ground, beyond=-8)]
         at = inputs.index("-te") + 1

@@ -88,9 +88,16 @@ class Query(Case):
             [[text]] = base.execute("SELECT value FROM terratet_meta WHERE key = 'estimator'")
         self.assertIn(" of K", text)
 
+    def test_a_name_that_the_table_has_already_is_not_used_twice(self):
+        rows = self.ask("x,y,K,z,K_sd\n525500,6792000,1e-9,-200,u\n")
+        self.assertEqual(rows[0], ["x", "y", "K", "z", "K_sd", "K_estimate", "K_sd_estimate", "K_ci95", "K_extrapolation"])
+        self.assertEqual(rows[1][:5], ["525500", "6792000", "1e-9", "-200", "u"])
+        self.assertEqual(rows[1][5:], self.ask("x,y,z\n525500,6792000,-200\n")[1][3:])
+
     def test_what_cannot_be_done_is_said(self):
         points = self.write("p.csv", "a,b\n1,2\n")
         self.fail_with(2, "query", "m.gpkg", "values", points, saying="there is value")
+        self.fail_with(2, "query", "m.gpkg", "value", points, "--side", "west", saying="'west' is neither + nor -")
         self.fail_with(3, "query", "m.gpkg", "value", points, saying="no column for x")
         self.fail_with(3, "query", "m.gpkg", "value", "none.csv", saying="none.csv")
 

@@ -32,6 +32,27 @@ class Regions(Case):
         self.succeed("export", "m.gpkg", "again.vtu")  # the names are in the model
         self.assertTrue((self.folder / "again.vtu").read_bytes() == (self.folder / "m.vtu").read_bytes())
 
+    def test_a_block_without_samples_is_named_and_a_place_on_the_fault_is_of_the_side_asked_for(self):
+        rows = [f"{x},{y},{z},{x + z}" for x in (10, 50, 90) for y in (10, 100, 190) for z in (-90, -50, -10)]
+        self.write("s.csv", "x,y,z,v\n" + "\n".join(rows) + "\n")
+        fault = [f"f,120,{y},{z}" for y in range(-60, 280, 20) for z in range(-160, 80, 20)]
+        self.write("f.csv", "fault,x,y,z\n" + "\n".join(fault) + "\n")
+        said = self.succeed("convert", *self.inputs, "--region-name", "190,10,-90=east", "--report", "r.json", "m.gpkg", "m.vtu").stderr
+        self.assertRegex(" ".join(said.split()), r"Block [01], east \(1\.\d+ M m³\) holds no sample: no values there")
+        self.assertEqual(said.count("holds no sample"), 1)
+        regions = json.loads((self.folder / "r.json").read_text())["regions"]
+        self.assertEqual({r["name"] == "east": r["without_values"] for r in regions}, {True: ["v"], False: []})
+        self.write("p.csv", "x,y,z\n120,100,-50\n120,93,-41\n")  # the + side is the east: a surface across y looks to +x
+
+        def values(*side):
+            rows = self.succeed("query", "m.gpkg", "value", "p.csv", *side, "-q", "--no-sd").stdout.splitlines()
+            return [row.split(",")[3] for row in rows[1:]]
+
+        self.assertEqual(values(), ["", ""])
+        self.assertEqual(values("--side", "+"), ["", ""])
+        for value in values("--side", "-"):
+            self.assertLess(abs(float(value)), 200)
+
     def test_names_for_nothing_are_refused(self):
         for text, saying in (("1,2=x", "is not x,y,z=NAME"), ("1,2,3=", "is not x,y,z=NAME"), ("1,2,z=a", "'z' is not a number")):
             self.fail_with(2, "build", *self.inputs, "--region-name", text, "-o", "m.gpkg", saying=saying)

@@ -113,8 +113,10 @@ class Continuation {
   public:
     Continuation(const Model& model, bool horizons) : model_(model), extent_(model.domain.extent) {
         reach_ = bounding_box(model.samples.positions);
-        reach_.extend(model.domain.hull.lo);
-        reach_.extend(model.domain.hull.hi);
+        if (!model.domain.hull.empty()) {
+            reach_.extend(model.domain.hull.lo);
+            reach_.extend(model.domain.hull.hi);
+        }
         for (const Fault& fault : model.faults) {
             barriers_.push_back({bars(fault, horizons), {}, {}});
             spacing_ = std::max(spacing_, fault.spacing);

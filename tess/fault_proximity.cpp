@@ -106,11 +106,11 @@ FaultProximity::FaultProximity(std::span<const Fault> faults, const Barriers& ba
     if (!barriers.hard.empty()) {
         impl_->hard_for = barriers.hard_for;
         impl_->hard = std::make_unique<FaultProximity>(
-            FaultProximity{std::make_unique<Impl>(sheets, barriers.hard, barriers.covered)});
+            FaultProximity{std::make_unique<Impl>(sheets, barriers.hard, barriers.covered), Made{}});
     }
 }
 
-FaultProximity::FaultProximity(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FaultProximity::FaultProximity(std::unique_ptr<Impl> impl, Made /*unused*/) : impl_(std::move(impl)) {}
 
 FaultProximity::~FaultProximity() = default;
 FaultProximity::FaultProximity(FaultProximity&&) noexcept = default;

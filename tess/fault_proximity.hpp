@@ -69,7 +69,8 @@ class FaultProximity {
 
   private:
     struct Impl;
-    explicit FaultProximity(std::unique_ptr<Impl> impl);
+    struct Made {};
+    FaultProximity(std::unique_ptr<Impl> impl, Made);
     std::unique_ptr<Impl> impl_;
 };
 

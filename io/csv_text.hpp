@@ -12,20 +12,13 @@
 
 namespace terratet {
 
-inline void append_csv_text(std::string& row, const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        row += text;
-        return;
-    }
-    row += '"';
-    for (const char c : text) {
-        row += c;
-        if (c == '"') {
-            row += '"';
-        }
-    }
-    row += '"';
-}
+/// Text that a spreadsheet would take for a formula (it begins with =, +, -, @, a tab or a line end, and is no number)
+/// gets an apostrophe before it, and so does text that begins with apostrophes and then such a sign: the reader takes
+/// one away, so that every text survives.
+void append_csv_text(std::string& row, const std::string& text);
+
+/// The text as it was before append_csv_text.
+std::string without_formula_mark(std::string text);
 
 template <class Number>
 void append_csv_number(std::string& row, Number value) {

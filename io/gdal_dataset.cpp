@@ -8,20 +8,13 @@
 #include <array>
 #include <string_view>
 
+#include "io/gdal_drivers.hpp"
 #include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 
 namespace {
-
-constexpr std::array<const char*, 14> allowed_drivers{
-    "CSV",    "XLSX",       "XLS",     "ODS",        "GPKG",        "ESRI Shapefile", "PostgreSQL",
-    "SQLite", "FlatGeobuf", "GeoJSON", "GeoJSONSeq", "OpenFileGDB", "MapInfo File",   nullptr};
-
-bool is_connection(const std::string& path) {
-    return path.starts_with("PG:");
-}
 
 /// The file behind `CSV:path`.
 std::string plain_path(const std::string& path) {
@@ -84,7 +77,7 @@ Dataset try_open(const std::string& path, const Source& source) {
     for (const std::string& option : source.open_options) {
         options.AddString(option.c_str());
     }
-    return Dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, allowed_drivers.data(),
+    return Dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, vector_drivers.data(),
                                      options.List(), nullptr));
 }
 
@@ -119,7 +112,8 @@ OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalScope
 }  // namespace
 
 Dataset open_vector(const Source& source) {
-    const GdalScope scope;
+    const GdalScope scope(source.path);
+    const SafeSqlite settings;
     const std::string path = plain_path(source.path);
     const bool file = !is_connection(source.path);
     if (file && !is_stream(path)) {

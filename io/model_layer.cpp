@@ -4,8 +4,10 @@
 
 #include <cpl_string.h>
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <climits>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -14,13 +16,15 @@
 #include "tess/error.hpp"
 
 namespace terratet {
-namespace {
 
 std::string because(const GdalScope& scope) {
-    return scope.failed() ? ": " + scope.failure() : "";
+    const auto says = [&](const char* what) { return scope.failure().find(what) != std::string::npos; };
+    const char* const advice =
+        says("full")             ? "; free some space or choose another folder"
+        : says("disk I/O error") ? "; is the disk full, or does a limit of the shell (ulimit -f) allow no larger file?"
+                                 : "";
+    return scope.failed() ? ": " + scope.failure() + advice : "";
 }
-
-}  // namespace
 
 LayerWriter::LayerWriter(GDALDataset& dataset, const GdalScope& scope, std::string file, const char* name,
                          OGRwkbGeometryType type, const OGRSpatialReference* reference)
@@ -180,14 +184,22 @@ std::int64_t LayerReader::required_integer_at(Column column) const {
 }
 
 std::optional<std::string> LayerReader::text_at(Column column) const {
-    return is_set(column) ? std::optional<std::string>(row_->GetFieldAsString(column)) : std::nullopt;
+    if (!is_set(column)) {
+        return std::nullopt;
+    }
+    std::string text = row_->GetFieldAsString(column);
+    if (!CPLIsUTF8(text.c_str(), static_cast<int>(std::min<std::size_t>(text.size(), INT_MAX)))) {
+        fail(std::string("the text in column ") + row_->GetFieldDefnRef(column)->GetNameRef() + " is not UTF-8");
+    }
+    return text;
 }
 
 std::string LayerReader::required_text_at(Column column) const {
-    if (!is_set(column)) {
+    auto text = text_at(column);
+    if (!text) {
         fail(std::string("no value in column ") + row_->GetFieldDefnRef(column)->GetNameRef());
     }
-    return row_->GetFieldAsString(column);
+    return *std::move(text);
 }
 
 std::span<const std::byte> LayerReader::bytes_at(Column column) const {
@@ -207,9 +219,18 @@ Vec3 LayerReader::point() const {
     const OGRPoint& p = *found->toPoint();
     const Vec3 position{p.getX(), p.getY(), p.getZ()};
     if (!is_acceptable(position)) {
-        fail("its coordinates are no numbers within 1e9");
+        fail("its coordinates " + std::to_string(position.x) + ", " + std::to_string(position.y) + ", " +
+             std::to_string(position.z) + " are no numbers within 1e9");
     }
     return position;
+}
+
+void LayerReader::require(bool good, Column column, const char* wanted) const {
+    if (!good) {
+        const std::string found = is_set(column) ? row_->GetFieldAsString(column) : "nothing";
+        fail(std::string("column ") + row_->GetFieldDefnRef(column)->GetNameRef() + " holds " + found +
+             ", which is not " + wanted);
+    }
 }
 
 void LayerReader::fail(const std::string& what) const {

@@ -25,6 +25,9 @@ namespace terratet {
 /// A column's place in its layer.
 using Column = int;
 
+/// What GDAL said of a write that failed, and what to do about a full disk; empty when it said nothing.
+std::string because(const GdalScope& scope);
+
 class LayerWriter {
   public:
     LayerWriter(GDALDataset& dataset, const GdalScope& scope, std::string file, const char* name,
@@ -96,6 +99,9 @@ class LayerReader {
 
     /// Throws InputError naming the file, the layer and the row.
     [[noreturn]] void fail(const std::string& what) const;
+
+    /// Throws InputError naming the column and what is in it as well, unless `good`. \param wanted  "a length from 0"
+    void require(bool good, Column column, const char* wanted) const;
 
   private:
     [[nodiscard]] Column find(const std::string& name, OGRFieldType type) const;

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 #include <tuple>
 
+#include "io/library_failure.hpp"
+#include "io/model_guard.hpp"
 #include "io/model_meta.hpp"
 #include "io/model_schema.hpp"
 #include "io/model_store.hpp"
+#include "io/source.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -61,11 +65,17 @@ class ModelReader {
     ModelReader(GDALDataset& dataset, GdalScope& scope, std::string file)
         : dataset_(dataset), scope_(scope), file_(std::move(file)) {}
 
-    Model read();
+    Model read(const LoadOptions& options);
 
   private:
     LayerReader layer(const char* name) { return {dataset_, scope_, file_, name}; }
-    Vec3 local(const Vec3& world) const { return model_.frame.to_local(world); }
+    Vec3 local(const LayerReader& layer, const Vec3& world) const {
+        const Vec3 position = model_.frame.to_local(world);
+        if (!is_acceptable(position)) {
+            layer.fail("a place is farther than 1e9 from the frame's origin");
+        }
+        return position;
+    }
 
     Meta read_meta();
     void read_boreholes();
@@ -76,6 +86,8 @@ class ModelReader {
     void read_fault_part(const LayerReader& layer, const schema::SurfaceColumns& columns, SurfaceKind kind,
                          bool margin);
     void find_seeds_among_vertices();
+    void require_distinct_places() const;
+    void require_counts_and_digest(const MetaContent& meta, const LoadOptions& options) const;
     double class_index(const LayerReader& layer, std::size_t property, const std::string& name) const;
     void append_values(const LayerReader& layer, const std::vector<Column>& columns,
                        std::vector<std::vector<double>>& values) const;
@@ -117,7 +129,9 @@ void ModelReader::append_values(const LayerReader& layer, const std::vector<Colu
                                 std::vector<std::vector<double>>& values) const {
     for (std::size_t p = 0; p < columns.size(); ++p) {
         if (model_.properties[p].kind == Kind::continuous) {
-            values[p].push_back(layer.number_at(columns[p]));
+            const double value = layer.number_at(columns[p]);
+            layer.require(!std::isinf(value), columns[p], "a finite number");
+            values[p].push_back(value);
         } else {
             const auto name = layer.text_at(columns[p]);
             values[p].push_back(name ? class_index(layer, p, *name) : missing);
@@ -128,9 +142,11 @@ void ModelReader::append_values(const LayerReader& layer, const std::vector<Colu
 void ModelReader::read_boreholes() {
     LayerReader layer = this->layer(schema::boreholes);
     const schema::BoreholeColumns columns(layer);
+    std::set<std::string> ids;
     while (layer.next()) {
         Borehole borehole;
         borehole.id = layer.required_text_at(columns.id);
+        layer.require(ids.insert(borehole.id).second, columns.id, "the only borehole of this id");
         const Vec3 collar{layer.required_number_at(columns.collar_x), layer.required_number_at(columns.collar_y),
                           layer.required_number_at(columns.collar_z)};
         const OGRGeometry* const geometry = layer.geometry();
@@ -138,14 +154,15 @@ void ModelReader::read_boreholes() {
             !geometry->Is3D() || !geometry->IsMeasured()) {
             layer.fail("its collar is no place, or its path no line with z and m");
         }
-        borehole.collar = local(collar);
+        borehole.collar = local(layer, collar);
         const OGRLineString& line = *geometry->toLineString();
         for (int i = 0; i < line.getNumPoints(); ++i) {
             const Vec3 p{line.getX(i), line.getY(i), line.getZ(i)};
-            if (!is_acceptable(p) || !std::isfinite(line.getM(i))) {
-                layer.fail("point " + std::to_string(i + 1) + " of its path is no place");
+            const double before = borehole.path_depth.empty() ? -max_coordinate : borehole.path_depth.back();
+            if (!is_acceptable(p) || !(line.getM(i) >= before && line.getM(i) <= max_coordinate)) {
+                layer.fail("point " + std::to_string(i + 1) + " of its path is no place, or not below the one before");
             }
-            borehole.path.push_back(local(p));
+            borehole.path.push_back(local(layer, p));
             borehole.path_depth.push_back(line.getM(i));
         }
         borehole_rows_.add(layer.row_number());
@@ -168,10 +185,13 @@ void ModelReader::read_samples() {
             }
             borehole = static_cast<std::int32_t>(*found);
         }
-        samples.positions.push_back(local(layer.point()));
+        samples.positions.push_back(local(layer, layer.point()));
         samples.borehole.push_back(borehole);
         samples.depth.push_back(layer.number_at(columns.depth));
         samples.length.push_back(layer.number_at(columns.length));
+        layer.require(!(std::abs(samples.depth.back()) > max_coordinate), columns.depth, "a depth within 1e9");
+        layer.require(!(samples.length.back() < 0 || samples.length.back() > max_coordinate), columns.length,
+                      "a length from 0 to 1e9");
         append_values(layer, columns.values, samples.values);
         for (std::size_t p = 0; p < columns.censored.size(); ++p) {
             if (columns.censored[p]) {
@@ -227,7 +247,7 @@ Surface ModelReader::read_mesh(const LayerReader& layer, const schema::SurfaceCo
         layer.fail("its geometry and its mesh columns differ; surfaces change through terratet edit only");
     }
     for (Vec3& p : surface.vertices) {
-        p = local(p);
+        p = local(layer, p);
     }
     return surface;
 }
@@ -252,13 +272,19 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
     fault.width = layer.number_at(columns.width);
     fault.covering_radius = layer.number_at(columns.covering_radius);
     fault.protection_radius = layer.number_at(columns.protection_radius);
+    layer.require(fault.spacing > 0 && fault.spacing <= max_coordinate, columns.spacing, "a length above 0, up to 1e9");
+    for (const auto& [length, column] :
+         {std::pair(fault.width, columns.width), std::pair(fault.covering_radius, columns.covering_radius),
+          std::pair(fault.protection_radius, columns.protection_radius)}) {
+        layer.require(length >= 0 && length <= max_coordinate, column, "a length from 0 to 1e9");
+    }
     fault.refined = model_.fault_options.refine;
     const auto packed = unpack<std::array<double, 4>>(layer, layer.bytes_at(columns.seeds), "seeds");
     for (const auto& [x, y, z, side] : packed) {
         if (!is_acceptable({x, y, z}) || (side != 1 && side != -1 && side != 0)) {
             layer.fail("a seed is no place with a side");
         }
-        fault.seeds.push_back({local({x, y, z}), static_cast<std::int8_t>(side)});
+        fault.seeds.push_back({local(layer, {x, y, z}), static_cast<std::int8_t>(side)});
     }
     fault_of_sheet_row_[layer.row_number()] = model_.faults.size();
     has_margin_.push_back(false);
@@ -314,10 +340,10 @@ void ModelReader::read_vertices() {
         const std::string role = layer.required_text_at(columns.role);
         const auto known = roles.find(role);
         const std::int64_t side = layer.required_integer_at(columns.side);
-        if (known == roles.end() || side < -1 || side > 1) {
-            layer.fail("\"" + role + "\" is no role, or the side none of -1, 0, 1");
-        }
+        layer.require(known != roles.end(), columns.role, "sample, seed, domain or inserted");
         vertex.role = known->second;
+        layer.require(vertex.role == Role::seed ? side == 1 || side == -1 : side == 0, columns.side,
+                      "1 or -1 for a seed, 0 for others");
         vertex.side = static_cast<std::int8_t>(side);
         const auto owner = layer.integer_at(columns.owner);
         if (vertex.role == Role::sample) {
@@ -335,9 +361,11 @@ void ModelReader::read_vertices() {
         } else if (owner) {
             layer.fail("a vertex of this role has no owner");
         }
-        vertex.position = local(layer.point());
+        vertex.position = local(layer, layer.point());
         model_.vertices.push_back(vertex);
         values.extrapolation.push_back(layer.number_at(columns.extrapolation));
+        layer.require(!(values.extrapolation.back() < 0 || values.extrapolation.back() > 1), columns.extrapolation,
+                      "a share from 0 to 1");
         append_values(layer, columns.values, values.values);
     }
 }
@@ -358,7 +386,45 @@ void ModelReader::find_seeds_among_vertices() {
     }
 }
 
-Model ModelReader::read() {
+/// A tessellation has one vertex at a place.
+void ModelReader::require_distinct_places() const {
+    std::vector<std::pair<Vec3, std::uint64_t>> places;
+    places.reserve(model_.vertices.size());
+    for (const Vertex& vertex : model_.vertices) {
+        places.emplace_back(vertex.position, vertex.id);
+    }
+    std::sort(places.begin(), places.end());
+    const auto twice = std::adjacent_find(places.begin(), places.end(),
+                                          [](const auto& a, const auto& b) { return a.first == b.first; });
+    if (twice != places.end()) {
+        throw InputError(file_ + ": layer " + schema::vertices + ": the vertices of id " +
+                         std::to_string(twice->second) + " and " + std::to_string(std::next(twice)->second) +
+                         " are at the same place");
+    }
+}
+
+void ModelReader::require_counts_and_digest(const MetaContent& meta, const LoadOptions& options) const {
+    if (row_counts(model_) != meta.counts) {
+        throw InputError(file_ + ": a layer has more or fewer rows than the model had; it was changed or damaged");
+    }
+    if (options.accept_edited) {
+        return;
+    }
+    const char* const remedy =
+        "; models change through terratet edit only. --accept-edited takes one that was edited on purpose, if it still "
+        "keeps all that terratet check verifies";
+    if (meta.digest.empty()) {
+        throw InputError(file_ + ": the digest that vouches for its rows is missing" + remedy);
+    }
+    if (model_digest(model_) != meta.digest) {
+        throw InputError(file_ +
+                         ": its rows are not those that were stored (the digest differs): another program changed it, "
+                         "or it is damaged" +
+                         remedy);
+    }
+}
+
+Model ModelReader::read(const LoadOptions& options) {
     MetaContent meta = from_meta(read_meta(), file_);
     model_ = std::move(meta.model);
     columns_ = std::move(meta.property_columns);
@@ -374,24 +440,22 @@ Model ModelReader::read() {
     read_surfaces();
     read_vertices();
     find_seeds_among_vertices();
-    if (row_counts(model_) != meta.counts) {
-        throw InputError(file_ + ": a layer has more or fewer rows than the model had; it was changed or damaged");
-    }
-    if (!meta.digest.empty() && model_digest(model_) != meta.digest) {
-        throw InputError(
-            file_ +
-            ": its rows are not those that were stored (the digest differs); another program changed it or "
-            "it is damaged: models change through terratet edit only");
-    }
+    require_distinct_places();
+    require_counts_and_digest(meta, options);
     return std::move(model_);
 }
 
-Dataset open_model(const std::string& path, const GdalScope& scope) {
+Dataset open_model(const std::string& path, GdalScope& scope) {
+    VSIStatBufL status;
+    if (!is_connection(path) && VSIStatL(path.c_str(), &status) == 0 && holds_model(path)) {
+        require_plain_model(path);
+    }
     const char* const drivers[] = {"GPKG", "PostgreSQL", nullptr};
+    const SafeSqlite settings;
+    scope.clear();
     Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, nullptr, nullptr));
     if (!dataset) {
-        VSIStatBufL status;
-        const bool there = path.starts_with("PG:") || VSIStatL(path.c_str(), &status) == 0;
+        const bool there = is_connection(path) || VSIStatL(path.c_str(), &status) == 0;
         throw InputError(path + (there ? ": is no GeoPackage" : ": not found") +
                          (scope.failed() ? ": " + scope.failure() : ""));
     }
@@ -403,14 +467,14 @@ Dataset open_model(const std::string& path, const GdalScope& scope) {
 
 }  // namespace
 
-Model load_model(const std::string& path) {
-    GdalScope scope;
+Model load_model(const std::string& path, const LoadOptions& options) {
+    GdalScope scope(path);
     const Dataset dataset = open_model(path, scope);
-    return ModelReader(*dataset, scope, path).read();
+    return naming_file(path, [&] { return ModelReader(*dataset, scope, path).read(options); });
 }
 
 std::vector<JournalEntry> load_journal(const std::string& path) {
-    GdalScope scope;
+    GdalScope scope(path);
     const Dataset dataset = open_model(path, scope);
     LayerReader layer(*dataset, scope, path, schema::journal);
     const schema::JournalColumns columns(layer);
@@ -423,7 +487,10 @@ std::vector<JournalEntry> load_journal(const std::string& path) {
 }
 
 bool is_model(const std::string& path) {
-    const GdalScope scope;
+    GdalScope scope(path);
+    if (!is_connection(path)) {
+        return holds_model(path);
+    }
     try {
         return open_model(path, scope) != nullptr;
     } catch (const InputError&) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/model_ranges.hpp"
 #include "io/model_schema.hpp"
 #include "io/model_store.hpp"
 #include "tess/error.hpp"
@@ -33,6 +34,14 @@ double number(const json& value) {
         throw json::other_error::create(501, "\"" + text + "\" is no number", nullptr);
     }
     return missing;
+}
+
+std::uint64_t count(const json& value) {
+    if (!value.is_number_unsigned()) {
+        throw json::other_error::create(
+            501, value.dump(-1, ' ', false, json::error_handler_t::replace) + " is no count", nullptr);
+    }
+    return value.get<std::uint64_t>();
 }
 
 json vector(const Vec3& v) {
@@ -192,7 +201,7 @@ FaultOptions fault_options_of(const json& j) {
     return {number(j.at("spacing")),
             number(j.at("width")),
             number(j.at("snap")),
-            j.at("max_seeds").get<std::uint64_t>(),
+            count(j.at("max_seeds")),
             is_second(j.at("mode"), "paired", "exact") ? FaultMode::exact : FaultMode::paired,
             j.at("refine").get<bool>()};
 }
@@ -221,23 +230,8 @@ json counts_json(const RowCounts& c) {
 }
 
 RowCounts counts_of(const json& j) {
-    return {j.at(schema::samples).get<std::size_t>(), j.at(schema::boreholes).get<std::size_t>(),
-            j.at(schema::surfaces).get<std::size_t>(), j.at(schema::vertices).get<std::size_t>()};
-}
-
-/// Names a database knows already, in lower case.
-const std::set<std::string>& reserved_columns() {
-    static const std::set<std::string> names = {
-        "fid",   "geom", "id",      "borehole", "hole",     "depth", "length", "role", "owner", "side", "extrapolation",
-        "rowid", "oid",  "_rowid_", "ogc_fid",  "tableoid", "xmin",  "cmin",   "xmax", "cmax",  "ctid"};
-    return names;
-}
-
-std::string ascii_lower(std::string text) {
-    for (char& c : text) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return text;
+    return {count(j.at(schema::samples)), count(j.at(schema::boreholes)), count(j.at(schema::surfaces)),
+            count(j.at(schema::vertices))};
 }
 
 /// Without what needs quoting twice somewhere, and short enough for PostgreSQL with a number behind.
@@ -260,7 +254,7 @@ std::string fit_column(const std::string& name) {
 /// With a number behind where it is taken, in any case; taken from now on.
 std::string distinct_column(const std::string& wanted, std::set<std::string>& taken) {
     std::string column = wanted;
-    for (int n = 2; !taken.insert(ascii_lower(column)).second; ++n) {
+    for (int n = 2; !taken.insert(schema::ascii_lower(column)).second; ++n) {
         column = wanted + "_" + std::to_string(n);
     }
     return column;
@@ -268,8 +262,22 @@ std::string distinct_column(const std::string& wanted, std::set<std::string>& ta
 
 }  // namespace
 
+const std::set<std::string>& schema::reserved_columns() {
+    static const std::set<std::string> names = {
+        "fid",   "geom", "id",      "borehole", "hole",     "depth", "length", "role", "owner", "side", "extrapolation",
+        "rowid", "oid",  "_rowid_", "ogc_fid",  "tableoid", "xmin",  "cmin",   "xmax", "cmax",  "ctid"};
+    return names;
+}
+
+std::string schema::ascii_lower(std::string text) {
+    for (char& c : text) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return text;
+}
+
 std::vector<std::string> schema::property_columns(const std::vector<Property>& properties) {
-    std::set<std::string> taken = reserved_columns();
+    std::set<std::string> taken = schema::reserved_columns();
     std::vector<std::string> columns;
     for (const Property& property : properties) {
         columns.push_back(distinct_column(fit_column(property.name), taken));
@@ -278,14 +286,14 @@ std::vector<std::string> schema::property_columns(const std::vector<Property>& p
 }
 
 std::vector<std::string> schema::censored_columns(const std::vector<std::string>& property_columns,
-                                                  const Samples& samples) {
-    std::set<std::string> taken = reserved_columns();
+                                                  const Samples& measured) {
+    std::set<std::string> taken = schema::reserved_columns();
     for (const std::string& column : property_columns) {
-        taken.insert(ascii_lower(column));
+        taken.insert(schema::ascii_lower(column));
     }
     std::vector<std::string> columns(property_columns.size());
     for (std::size_t p = 0; p < columns.size(); ++p) {
-        if (samples.censored_count(p) > 0) {
+        if (measured.censored_count(p) > 0) {
             columns[p] = distinct_column(property_columns[p] + "_censored", taken);
         }
     }
@@ -351,12 +359,8 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
     } catch (const json::exception& error) {
         throw InputError(file + ": layer " + schema::meta + ", key " + key + " is damaged: " + error.what());
     }
-    if (const Frame& frame = content.model.frame;
-        !is_finite(frame.origin) || !std::isfinite(frame.z_scale) || frame.z_scale <= 0) {
-        throw InputError(file + ": layer " + schema::meta +
-                         ", key frame: the origin or the z scale is no usable number");
-    }
     content.model.estimator = value("estimator");
+    require_ranges(content.model, content.property_columns, content.censored_columns, file);
     const auto digest = meta.find("digest");
     content.digest = digest == meta.end() ? "" : digest->second;
     return content;

@@ -13,14 +13,11 @@
 #include "io/model_schema.hpp"
 #include "io/model_store.hpp"
 #include "io/output_file.hpp"
+#include "io/source.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
-
-bool is_connection(const std::string& path) {
-    return path.starts_with("PG:");
-}
 
 /// The time in force: SOURCE_DATE_EPOCH (seconds since 1970) when set, so that equal runs give equal files.
 std::time_t current_time() {
@@ -325,9 +322,7 @@ void ModelWriter::write_journal(const JournalEntry& entry) {
 }
 
 [[noreturn]] void fail(const std::string& path, const GdalScope& scope) {
-    const bool full = scope.failure().find("full") != std::string::npos;
-    throw Error("cannot write " + path + (scope.failed() ? ": " + scope.failure() : "") +
-                (full ? "; free some space or choose another folder" : ""));
+    throw Error("cannot write " + path + because(scope));
 }
 
 /// SQLite's settings while a new database is made, whatever the environment's OGR_SQLITE_… variables say. The driver

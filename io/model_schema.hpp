@@ -5,6 +5,7 @@
 /// Layers and columns of the model file (docs/model-file.md), for writing and reading alike. Private to this floor.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ inline constexpr const char* vertices = "vertices";
 inline constexpr const char* meta = "terratet_meta";
 inline constexpr const char* journal = "terratet_journal";
 inline constexpr const char* changes = "terratet_changes";
+
+/// Column names that databases and the layers know already, in lower case.
+const std::set<std::string>& reserved_columns();
+
+/// Databases do not tell A from a in names; of other letters they do.
+std::string ascii_lower(std::string text);
 
 /// Column names of properties: the property's name where a database takes it as it is, else made fit and unique. The
 /// mapping is stored, so any name survives.

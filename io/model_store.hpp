@@ -30,14 +30,22 @@ struct JournalEntry {
 ///      margins are of kind fault; vertices of role domain and inserted have owner −1.
 void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite = false);
 
+struct LoadOptions {
+    /// The digest of what was stored is not asked for: the caller verifies what the model promises (tess/verify.hpp).
+    bool accept_edited = false;
+};
+
 /// Throws InputError: not found, not a Terratet model, another format version, a layer or row missing or damaged
-/// (named), or rows changed by another program (the stored digest tells).
-Model load_model(const std::string& path);
+/// (named), a number that no model can hold (layer, row, column and what was found), or rows changed by another program
+/// (the stored digest differs, or is missing). The file may come from anybody: nothing that its schema holds is run
+/// (model_guard.hpp).
+Model load_model(const std::string& path, const LoadOptions& options = {});
 
 /// Throws InputError as load_model does.
 std::vector<JournalEntry> load_journal(const std::string& path);
 
-/// Is this a Terratet model? False for anything else, also for what does not exist.
+/// Is this a Terratet model, sound or not? False for anything else, also for what does not exist. Throws InputError for
+/// a database that is damaged.
 bool is_model(const std::string& path);
 
 /// SHA-256 over the model's content (all of tess/model.hpp but the paths of input files; no times): equal digests mean

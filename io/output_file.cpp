@@ -52,10 +52,6 @@ std::string advice(int error) {
     }
 }
 
-[[noreturn]] void fail(const std::string& what, int error) {
-    throw Error(what + ": " + std::generic_category().message(error) + advice(error));
-}
-
 fs::path folder_of(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     return folder.empty() ? fs::path(".") : folder;
@@ -158,14 +154,14 @@ OutputFile::OutputFile(std::string path, bool overwrite)
     const std::lock_guard lock(outputs().mutex);
     const int descriptor = create_exclusively(target_, temporary_);
     if (descriptor < 0) {
-        fail("cannot write " + path_, errno);
+        fail_writing(path_, errno);
     }
     file_ = fdopen(descriptor, "wb");
     if (!file_) {
         const int error = errno;
         ::close(descriptor);
         unlink(temporary_.c_str());
-        fail("cannot write " + path_, error);
+        fail_writing(path_, error);
     }
     outputs().temporaries.insert(temporary_);
     std::setvbuf(file_, nullptr, _IOFBF, buffer_size);
@@ -185,7 +181,7 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::span<const std::byte> bytes) {
     assert(file_ && "write after close");
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
-        fail("cannot write " + path_, errno);
+        fail_writing(path_, errno);
     }
 }
 
@@ -195,7 +191,7 @@ void OutputFile::write(std::string_view text) {
 
 void OutputFile::close() {
     if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) {
-        fail("cannot write " + path_, errno);
+        fail_writing(path_, errno);
     }
 }
 
@@ -205,21 +201,21 @@ std::uint64_t OutputFile::commit() {
     // Opened again, since a library may have replaced the file behind our descriptor.
     const int descriptor = open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor < 0) {
-        fail("cannot write " + path_, errno);
+        fail_writing(path_, errno);
     }
     struct stat status {};
     const bool synced = fsync(descriptor) == 0 && fstat(descriptor, &status) == 0;
     const int error = errno;
     ::close(descriptor);
     if (!synced) {
-        fail("cannot write " + path_, error);
+        fail_writing(path_, error);
     }
     const std::lock_guard lock(outputs().mutex);
     if (const int refused = move_into_place(temporary_, target_, overwrite_)) {
         if (refused == EEXIST) {
             throw Error(path_ + " exists now, though it did not before; give --overwrite to replace it");
         }
-        fail("cannot write " + path_, refused);
+        fail_writing(path_, refused);
     }
     committed_ = true;
     outputs().committed.push_back(path_);
@@ -237,12 +233,16 @@ std::vector<std::string> abandon_outputs() {
     return outputs().committed;
 }
 
+void fail_writing(const std::string& path, int error) {
+    throw Error("cannot write " + path + ": " + std::generic_category().message(error) + advice(error));
+}
+
 void require_writable(const std::string& path, bool overwrite) {
     const std::string target = resolved(path);
     require_folder(path, target);
     require_replaceable(path, target, overwrite);
     if (access(folder_of(target).c_str(), W_OK) != 0) {
-        fail("cannot write " + path, errno);
+        fail_writing(path, errno);
     }
 }
 

@@ -4,7 +4,8 @@
 /// \file
 /// Output whole or not at all: bytes go to a temporary file in the same folder; commit() syncs and renames it.
 /// Destroyed without commit, nothing remains. (A killed process leaves its temporary file, `.terratet-*`, and what was
-/// there before.)
+/// there before.) A limit on the size of files (ulimit -f) is an error like a full disk where SIGXFSZ is ignored, as the
+/// command does; else the system kills the process.
 
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,9 @@ class OutputFile {
 /// For a program that has to end at once: removes the temporary files of all outputs not committed, and returns the
 /// paths of those that were. From then on whoever begins or commits one waits for the end.
 std::vector<std::string> abandon_outputs();
+
+/// Throws Error: cannot write `path`, for the reason that `error` (an errno) stands for, and what to do about it.
+[[noreturn]] void fail_writing(const std::string& path, int error);
 
 /// Refuses an existing output early, before hours of work; also a missing or read-only folder. Throws Error, naming
 /// --overwrite for an existing file.

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "io/gdal_dataset.hpp"
+#include "io/library_failure.hpp"
 #include "io/polygon_surface.hpp"
 #include "io/read_surfaces.hpp"
 #include "io/rejections.hpp"
@@ -117,10 +118,8 @@ std::string add_parted(const OGRPolygon& polygon, PolygonSurface& surface) {
     return problem;
 }
 
-}  // namespace
-
-RawSurfaces read_domain(const Source& source, Diagnostics& diagnostics) {
-    const GdalScope scope;
+RawSurfaces read_polygons(const Source& source, Diagnostics& diagnostics) {
+    const GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     ResultSet result_set;
     OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
@@ -154,6 +153,12 @@ RawSurfaces read_domain(const Source& source, Diagnostics& diagnostics) {
     result.surfaces.back().kind = SurfaceKind::domain;
     result.surfaces.back().file = to_utf8(source.path);
     return result;
+}
+
+}  // namespace
+
+RawSurfaces read_domain(const Source& source, Diagnostics& diagnostics) {
+    return naming_file(source.describe(), [&] { return read_polygons(source, diagnostics); });
 }
 
 }  // namespace terratet

@@ -83,7 +83,7 @@ void name_the_nameless(std::vector<Feature>& features, const std::string& layer)
 
 RawSurfaces read_ogr_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                               Diagnostics& diagnostics) {
-    const GdalScope scope;
+    const GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     ResultSet result_set;
     OGRLayer& layer = open_layer(*dataset, source, scope, result_set);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "io/gdal_dataset.hpp"
+#include "io/gdal_drivers.hpp"
 #include "io/read_surfaces.hpp"
 #include "tess/error.hpp"
 
@@ -16,10 +17,6 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_nodes = 250'000;  ///< of the surface: larger rasters are averaged into fewer pixels
-
-constexpr std::array<const char*, 13> allowed_drivers{"GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
-                                                      "HFA",   "SRTMHGT", "DTED",           "GSAG", "GSBG",
-                                                      "GS7BG", "netCDF",  nullptr};
 
 /// Heights at the pixels' centres, row by row from the raster's first.
 struct Heights {
@@ -113,14 +110,14 @@ Crs crs_of(GDALDataset& dataset) {
 }  // namespace
 
 bool is_raster(const std::string& path) {
-    const GdalScope scope;
-    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, allowed_drivers.data(), nullptr) != nullptr;
+    const GdalScope scope(path);
+    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, raster_drivers.data(), nullptr) != nullptr;
 }
 
 RawSurfaces read_raster_surface(const Source& source, SurfaceKind kind, Diagnostics& diagnostics) {
-    const GdalScope scope;
+    const GdalScope scope(source.path);
     const Dataset dataset(GDALDataset::Open(source.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
-                                            allowed_drivers.data(), nullptr, nullptr));
+                                            raster_drivers.data(), nullptr, nullptr));
     if (!dataset || dataset->GetRasterCount() < 1 || dataset->GetRasterXSize() < 2 || dataset->GetRasterYSize() < 2) {
         throw InputError(source.describe() + ": no raster of heights that can be read" +
                          (scope.failed() ? " (" + scope.failure() + ")" : ""));

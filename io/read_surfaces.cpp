@@ -5,6 +5,7 @@
 #include <ogrsf_frmts.h>
 
 #include "io/gdal_dataset.hpp"
+#include "io/library_failure.hpp"
 #include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
@@ -43,16 +44,13 @@ bool holds_points(OGRLayer& layer) {
 }
 
 bool holds_points(const Source& source) {
-    const GdalScope scope;
+    const GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     ResultSet result_set;
     return holds_points(open_layer(*dataset, source, scope, result_set));
 }
 
-}  // namespace
-
-RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
-                          Diagnostics& diagnostics) {
+RawSurfaces read_any(const Source& source, SurfaceKind kind, const ColumnNames& columns, Diagnostics& diagnostics) {
     if (is_gocad(source.path)) {
         return read_tsurf(source, kind, diagnostics);
     }
@@ -68,6 +66,13 @@ RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNa
     }
     return holds_points(source) ? read_fault_points(source, kind, columns, diagnostics)
                                 : read_ogr_surfaces(source, kind, columns, diagnostics);
+}
+
+}  // namespace
+
+RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
+                          Diagnostics& diagnostics) {
+    return naming_file(source.describe(), [&] { return read_any(source, kind, columns, diagnostics); });
 }
 
 }  // namespace terratet

@@ -16,7 +16,9 @@
 #include <span>
 #include <string_view>
 
+#include "io/csv_text.hpp"
 #include "io/gdal_dataset.hpp"
+#include "io/library_failure.hpp"
 #include "io/text_lines.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
@@ -259,13 +261,25 @@ bool first_row_is_header(const Table& table) {
     return found.size() >= 2;
 }
 
+/// Texts as they were before a program, ours or another, kept them from being formulas.
+void take_formula_marks(Table& table) {
+    for (std::string& column : table.columns) {
+        column = without_formula_mark(std::move(column));
+    }
+    for (auto& column : table.cells) {
+        for (std::string& cell : column) {
+            cell = cell.starts_with('\'') ? without_formula_mark(std::move(cell)) : std::move(cell);
+        }
+    }
+}
+
 bool names_option(const Source& source, const std::string& key) {
     return std::ranges::any_of(source.open_options,
                                [&](const std::string& option) { return option.starts_with(key + "="); });
 }
 
 Table read_once(const Source& source, bool& csv) {
-    GdalScope scope;
+    GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     csv = has_driver(*dataset, {"CSV"});
     ResultSet result_set;
@@ -276,6 +290,9 @@ Table read_once(const Source& source, bool& csv) {
         throw InputError(
             fmt::format("{}: reading failed after {} rows ({})", table.file, table.rows(), scope.failure()));
     }
+    if (csv) {
+        take_formula_marks(table);
+    }
     number_records(table, *dataset, source);
     if (table.rows() == 0) {
         throw InputError(table.file + ": has no row" +
@@ -284,9 +301,7 @@ Table read_once(const Source& source, bool& csv) {
     return table;
 }
 
-}  // namespace
-
-Table read_table(const Source& source) {
+Table read_titled(const Source& source) {
     bool csv = false;
     Table table = read_once(source, csv);
     const bool untitled = csv && has_no_header(table) && !names_option(source, "HEADERS") && !is_stream(source.path);
@@ -303,6 +318,12 @@ Table read_table(const Source& source) {
         accept_decimal_commas(table);
     }
     return table;
+}
+
+}  // namespace
+
+Table read_table(const Source& source) {
+    return naming_file(source.describe(), [&] { return read_titled(source); });
 }
 
 }  // namespace terratet

@@ -70,10 +70,6 @@ void assign(Source& source, const std::string& key, std::string value, const std
     field = std::move(value);
 }
 
-bool is_connection(const std::string& path) {
-    return path.starts_with("PG:");
-}
-
 /// A connection string with `password=…` masked, quoted or not.
 std::string without_password(std::string text) {
     const std::string key = "password=";
@@ -104,6 +100,10 @@ constexpr std::array<Unit, 9> units{{{"mm", 0.001},
                                      {"mi", 1609.344}}};
 
 }  // namespace
+
+bool is_connection(const std::string& path) {
+    return path.starts_with("PG:");
+}
 
 std::string Source::describe() const {
     const std::string shown = is_connection(path) ? without_password(path) : path;

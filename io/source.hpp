@@ -24,6 +24,9 @@ struct Source {
     friend bool operator==(const Source&, const Source&) = default;
 };
 
+/// A connection string of PostgreSQL, "PG:…", instead of a file?
+bool is_connection(const std::string& path);
+
 /// Splits at commas that precede a known key (layer, srs, where, sql, oo), so that file names, statements and CRS may
 /// hold commas. Throws UsageError on an unknown key after a file name, a key given twice, or without a file name.
 Source parse_source(const std::string& text);

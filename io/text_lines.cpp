@@ -29,7 +29,7 @@ void LineReader::Closer::operator()(void* file) const {
 }
 
 LineReader::LineReader(std::string path) : path_(std::move(path)) {
-    const GdalScope quiet;
+    const GdalScope quiet(path_);
     VSIStatBufL status;
     if (VSIStatExL(path_.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 &&
         VSI_ISDIR(status.st_mode)) {
@@ -58,7 +58,7 @@ bool LineReader::fill() {
                          ": longer than 1 MiB; this is not a text file of the expected kind");
     }
     buffer_.resize(std::max(buffer_.size(), end_ + chunk));
-    const GdalScope quiet;
+    const GdalScope quiet(path_);
     const std::size_t got = VSIFReadL(buffer_.data() + end_, 1, chunk, static_cast<VSILFILE*>(file_.get()));
     end_ += got;
     if (got < chunk) {

@@ -72,7 +72,7 @@ class Digest {
 
 }  // namespace
 
-void make_vdb_identity_reproducible(const std::string& path) {
+void make_vdb_identity_reproducible(const std::string& path, const std::string& shown) {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
     std::vector<char> buffer(1 << 20);
     Digest digest;
@@ -81,7 +81,7 @@ void make_vdb_identity_reproducible(const std::string& path) {
         const auto count = static_cast<std::size_t>(file.gcount());
         if (first) {
             if (count < uuid_begin + uuid_length || !is_uuid(buffer.data() + uuid_begin)) {
-                throw Error(path + " does not begin as an OpenVDB file does");
+                throw Error(shown + " does not begin as an OpenVDB file does");
             }
             std::fill_n(buffer.begin() + uuid_begin, uuid_length, '0');
             first = false;
@@ -92,7 +92,7 @@ void make_vdb_identity_reproducible(const std::string& path) {
     file.seekp(uuid_begin);
     file << digest.uuid();
     if (first || !file.flush()) {
-        throw Error("cannot write " + path);
+        throw Error("cannot write " + shown + ": the disk is full, or failing");
     }
 }
 

@@ -10,7 +10,8 @@
 namespace terratet {
 
 /// Replaces the UUID by one made from the file's other bytes (version 8 of RFC 9562: the maker's own), which still
-/// tells different files apart. Throws Error when the file does not begin as OpenVDB's format 213 to 224 does.
-void make_vdb_identity_reproducible(const std::string& path);
+/// tells different files apart. Throws Error when the file does not begin as OpenVDB's format 213 to 224 does,
+/// or cannot be written; the message names `shown`.
+void make_vdb_identity_reproducible(const std::string& path, const std::string& shown);
 
 }  // namespace terratet

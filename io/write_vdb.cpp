@@ -4,7 +4,6 @@
 /// One FloatGrid a property: the tessellation's linear field at the voxels' centres. Voxels without a value are
 /// inactive. A last one is the vertices' extrapolation, to mask by.
 
-#include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 #include "io/column_names.hpp"
 #include "io/export.hpp"
 #include "io/output_file.hpp"
-#include "io/vdb_identity.hpp"
+#include "io/vdb_file.hpp"
 
 namespace terratet {
 namespace {
@@ -146,13 +145,6 @@ std::vector<double> extrapolation_of_values(const VertexValues& vertices) {
     return out;
 }
 
-std::uint32_t compression() {
-    return openvdb::io::COMPRESS_ACTIVE_MASK |
-           (openvdb::io::Archive::hasBloscCompression()  ? openvdb::io::COMPRESS_BLOSC
-            : openvdb::io::Archive::hasZLibCompression() ? openvdb::io::COMPRESS_ZIP
-                                                         : openvdb::io::COMPRESS_NONE);
-}
-
 }  // namespace
 
 OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options) {
@@ -188,15 +180,7 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     }
     openvdb::MetaMap meta;
     describe(meta, model.frame, options.local_origin);
-    try {
-        openvdb::io::File vdb(file.temporary_path());
-        vdb.setCompression(compression());
-        vdb.write(grids, meta);
-        vdb.close();
-    } catch (const openvdb::Exception& error) {
-        throw Error("cannot write " + path + ": " + error.what());
-    }
-    make_vdb_identity_reproducible(file.temporary_path());
+    write_vdb_file(file.temporary_path(), path, grids, meta);
     return {path, file.commit()};
 }
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "interp/model_source.hpp"
 #include "io/model_store.hpp"
-#include "tess/verify.hpp"
 #include "tools/command.hpp"
+#include "tools/open_model.hpp"
+#include "tools/printable.hpp"
 #include "tools/progress_display.hpp"
 #include "tools/session.hpp"
 
@@ -24,14 +24,14 @@ std::string as_json(const std::vector<Verdict>& verdicts) {
                         {"statement", verdict.statement},
                         {"detail", verdict.detail}});
     }
-    return list.dump(2) + "\n";
+    return json_text(list);
 }
 
 std::string as_lines(const std::vector<Verdict>& verdicts) {
     std::string out;
     for (const auto& verdict : verdicts) {
         out += fmt::format("{:4} {:7} {}{}\n", verdict.guarantee, verdict.holds ? "holds" : "BROKEN", verdict.statement,
-                           verdict.detail.empty() ? "" : " (" + verdict.detail + ")");
+                           verdict.detail.empty() ? "" : " (" + printable(verdict.detail) + ")");
     }
     return out;
 }
@@ -42,6 +42,7 @@ class Check final : public Command {
         return {"check",
                 {{"Options",
                   {{{"json"}, "", "as JSON", &json_},
+                   accept_edited_option(accept_edited_),
                    {{"threads"}, "N", "as many as there are cores by default", &threads_},
                    {{"progress"}, "HOW", "auto (default), none, json", &progress_},
                    {{"q", "quiet"}, "", "no bar", &quiet_}}}},
@@ -50,15 +51,11 @@ class Check final : public Command {
 
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
-        const Model model = load_model(paths_.front());
-        const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of,
-                                                                            const FaultProximity& faults) {
-            return make_model_source(of, faults, plan);
-        };
+        const Model model = load_model(paths_.front(), {.accept_edited = accept_edited_});
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verify(model, factory, display.callback());
+            verdicts = verdicts_on(model, display.callback());
         }
         print(json_ ? as_json(verdicts) : as_lines(verdicts));
         const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds; });
@@ -70,6 +67,7 @@ class Check final : public Command {
     std::uint64_t threads_ = 0;
     std::string progress_ = "auto";
     bool json_ = false;
+    bool accept_edited_ = false;
     bool quiet_ = false;
 };
 

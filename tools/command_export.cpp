@@ -4,6 +4,7 @@
 
 #include "tess/error.hpp"
 #include "tools/command.hpp"
+#include "tools/open_model.hpp"
 #include "tools/outputs.hpp"
 #include "tools/pipeline.hpp"
 #include "tools/progress_display.hpp"
@@ -18,6 +19,7 @@ class Export final : public Command {
   public:
     Syntax syntax() override {
         Syntax syntax{"export", export_options(exporting_), {"MODEL.gpkg and OUTPUT", 2, 1000, &paths_}};
+        append(syntax, {{"Model", {accept_edited_option(accept_edited_)}}});
         append(syntax, run_options(run_));
         return syntax;
     }
@@ -35,7 +37,7 @@ class Export final : public Command {
         check_outputs(outputs, {input}, exporting_, run_);
 
         const ThreadLimit threads(run_.threads);
-        Model model = load_model(input);
+        Model model = open_model(input, accept_edited_);
         if (exporting_.uncertainty) {
             describe_uncertainty(model);
         }
@@ -58,6 +60,7 @@ class Export final : public Command {
     ExportArguments exporting_;
     RunArguments run_;
     std::vector<std::string> paths_;
+    bool accept_edited_ = false;
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
 
 #include "tess/error.hpp"
 #include "tools/command.hpp"
 #include "tools/describe.hpp"
+#include "tools/open_model.hpp"
+#include "tools/printable.hpp"
 #include "tools/session.hpp"
 
 namespace terratet::tools {
@@ -37,6 +37,7 @@ class Info final : public Command {
         return {"info",
                 {{"Options",
                   {{{"json"}, "", "as JSON", &json_},
+                   accept_edited_option(accept_edited_),
                    {{"digest"}, "", "of a model: the hash of its content, and nothing else", &digest_}}}},
                 {"FILE", 1, 1, &paths_}};
     }
@@ -45,27 +46,24 @@ class Info final : public Command {
         const Source source = parse_source(paths_.front());
         std::string text;
         if (is_model(source.path)) {
-            const Model model = load_model(source.path);
+            const Model model = open_model(source.path, accept_edited_);
             text = digest_ ? model_digest(model) + "\n" : rendered(describe_model(model, load_journal(source.path)));
         } else if (digest_) {
             throw InputError(source.path + ": not a Terratet model; --digest is for models");
         } else {
             text = rendered(describe_input(source));
         }
-        if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-            throw Error("standard output cannot be written to");
-        }
-        return exit_done;
+        return print(text);
     }
 
   private:
     [[nodiscard]] std::string rendered(const nlohmann::ordered_json& description) const {
-        using Json = nlohmann::ordered_json;
-        return json_ ? description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : as_text(description);
+        return json_ ? json_text(description) : as_text(description);
     }
 
     std::vector<std::string> paths_;
     bool json_ = false;
+    bool accept_edited_ = false;
     bool digest_ = false;
 };
 

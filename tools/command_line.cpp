@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "io/network.hpp"
 #include "io/read_table.hpp"
 #include "tess/error.hpp"
 #include "tools/text.hpp"
@@ -135,6 +136,12 @@ void add_recipe(const Syntax& syntax, const std::string& path, Values& values) {
         if (option == nullptr || item.name == "config") {
             throw UsageError(
                 fmt::format("{}: unknown option '{}'{}", path, item.name, suggestion(syntax, item.name, false)));
+        }
+        // A recipe is a file too: what it would have called is told, and called only when the command line asks for it.
+        const auto remote = std::find_if(item.inputs.begin(), item.inputs.end(), names_network);
+        if (remote != item.inputs.end() && !from_command_line.contains(option)) {
+            throw UsageError(fmt::format("{}: {} = {} is on a network; name it on the command line, with {}", path,
+                                         item.name, *remote, dashed(option->names.front())));
         }
         if (!from_command_line.contains(option)) {
             values[option] = item.inputs;

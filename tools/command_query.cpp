@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,13 +7,14 @@
 
 #include "interp/model_estimator.hpp"
 #include "io/csv_text.hpp"
-#include "io/model_store.hpp"
 #include "io/read_points.hpp"
 #include "tess/error.hpp"
 #include "tess/model_bounds.hpp"
 #include "tools/command.hpp"
+#include "tools/open_model.hpp"
 #include "tools/session.hpp"
 #include "tools/site_options.hpp"
+#include "tools/text.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -38,6 +38,7 @@ class Query final : public Command {
                    {{"s_srs", "source-crs"}, "CRS", "of the points, if they carry none; the model's by default", &crs_},
                    {{"columns"}, "MEANING=COLUMN", "a column not found by its name: x, y, z", &columns_},
                    {{"side"}, "+|-", "of a fault that a place lies exactly on; + by default", &side_},
+                   accept_edited_option(accept_edited_),
                    {{"threads"}, "N", "as many as there are cores by default", &threads_},
                    {{"q", "quiet"}, "", "no remarks on standard error", &quiet_}}}},
                 {"MODEL.gpkg VERB POINTS", 3, 3, &words_}};
@@ -51,7 +52,7 @@ class Query final : public Command {
             throw UsageError("query --side: '" + side_ + "' is neither + nor -");
         }
         const ThreadLimit threads(threads_);
-        const Model model = load_model(words_[0]);
+        const Model model = open_model(words_[0], accept_edited_);
         Diagnostics diagnostics;
         const PointTable points = read_points(parse_source(words_[2] == "-" ? "/vsistdin/" : words_[2]), model.frame,
                                               crs_, column_names(columns_), diagnostics);
@@ -69,20 +70,11 @@ class Query final : public Command {
         for (std::size_t begin = 0; begin < points.positions.size(); begin += batch_size) {
             print(rows(model, points, begin, std::min(begin + batch_size, points.positions.size()), estimator, bounds));
         }
-        if (std::fflush(stdout) != 0) {
-            throw Error("standard output cannot be written to");
-        }
         remark(model, estimator, diagnostics);
         return exit_done;
     }
 
   private:
-    static void print(const std::string& text) {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
-            throw Error("standard output cannot be written to");
-        }
-    }
-
     [[nodiscard]] std::string header(const Model& model, const Table& table) const {
         std::string row;
         std::set<std::string> taken;
@@ -172,10 +164,11 @@ class Query final : public Command {
             return;
         }
         for (const auto& record : diagnostics.rejected) {
-            spdlog::warn("{}, line {}: {}; no value", record.file, record.line, record.reason);
+            spdlog::warn("{}",
+                         one_line(fmt::format("{}, line {}: {}; no value", record.file, record.line, record.reason)));
         }
         for (const auto& note : diagnostics.notes) {
-            spdlog::info("{}", note);
+            spdlog::info("{}", one_line(note));
         }
         if (excluded_ > 0) {
             spdlog::info("{} places are above the ground or outside the domain: no value", excluded_);
@@ -185,7 +178,7 @@ class Query final : public Command {
             const Property& property = model.properties[p];
             if (kinds[p].deviation_source != DeviationSource::none) {
                 const Calibration& c = kinds[p].calibration;
-                spdlog::info("{}_sd: {}{}{}", property.name, to_string(kinds[p].deviation_source),
+                spdlog::info("{}_sd: {}{}{}", one_line(property.name), to_string(kinds[p].deviation_source),
                              property.scale == Scale::log10 ? ", in decades" : "",
                              c.samples == 0
                                  ? std::string(", not calibrated: no borehole could be left out")
@@ -208,6 +201,7 @@ class Query final : public Command {
     bool probabilities_ = false;
     bool no_deviation_ = false;
     bool quiet_ = false;
+    bool accept_edited_ = false;
 };
 
 }  // namespace

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
-
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
-#include "io/model_store.hpp"
 #include "io/output_file.hpp"
 #include "tess/error.hpp"
 #include "tools/command.hpp"
+#include "tools/open_model.hpp"
+#include "tools/outputs.hpp"
+#include "tools/printable.hpp"
 #include "tools/progress_display.hpp"
 #include "tools/run_options.hpp"
 #include "tools/session.hpp"
@@ -43,6 +43,7 @@ class Validate final : public Command {
                               "one to try, repeatable; by default natural, idw, kriging, nearest",
                               &estimators_},
                              {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
+                             accept_edited_option(accept_edited_),
                              {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
                          }}});
         append(syntax, run_options(run_));
@@ -55,11 +56,9 @@ class Validate final : public Command {
              estimators_.empty() ? std::vector<std::string>{"natural", "idw", "kriging", "nearest"} : estimators_) {
             specs.push_back(parse_estimator(text));
         }
-        for (const auto& path : {plot_, run_.report}) {
-            if (!path.empty() && path != "-") {
-                require_writable(path, run_.overwrite);
-            }
-        }
+        std::vector<std::string> inputs = input_paths(site_);
+        inputs.insert(inputs.end(), models_.begin(), models_.end());
+        check_places(plot_.empty() ? std::vector<std::string>{} : std::vector{plot_}, inputs, run_);
         const ThreadLimit threads(run_.threads);
         Diagnostics diagnostics;
         Model model;
@@ -80,10 +79,7 @@ class Validate final : public Command {
         }
         write_json(model, diagnostics, all);
         if (run_.report != "-") {
-            std::fputs(validation_text(model, all).c_str(), stdout);
-        }
-        if (std::fflush(stdout) != 0) {
-            throw Error("standard output cannot be written to");
+            print(printable(validation_text(model, all), true));
         }
         return exit_done;
     }
@@ -91,7 +87,7 @@ class Validate final : public Command {
   private:
     Model input(Diagnostics& diagnostics, const Progress& progress) const {
         if (!models_.empty()) {
-            return load_model(models_.front());
+            return open_model(models_.front(), accept_edited_, progress);
         }
         Model model;
         ReadCounts counts;
@@ -119,9 +115,9 @@ class Validate final : public Command {
                             {"rejected", rejected},
                             {"notes", diagnostics.notes}}},
                           {"properties", validation_json(model, all)}};
-        const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        const std::string text = json_text(report);
         if (run_.report == "-") {
-            std::fputs(text.c_str(), stdout);
+            print(text);
             return;
         }
         OutputFile file(run_.report, run_.overwrite);
@@ -134,6 +130,7 @@ class Validate final : public Command {
     std::vector<std::string> models_;
     std::vector<std::string> estimators_;
     std::string plot_;
+    bool accept_edited_ = false;
     std::uint64_t folds_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/printable.hpp"
 #include "tools/text.hpp"
 
 namespace terratet::tools {
@@ -90,7 +91,7 @@ Json criteria_json(const Model& model) {
 
 std::string scalar_text(const Json& value) {
     if (value.is_string()) {
-        return value.get<std::string>();
+        return printable(value.get<std::string>());
     }
     if (value.is_number_float()) {
         return fmt::format("{:.10g}", value.get<double>());
@@ -108,7 +109,7 @@ std::string row_text(const Json& row) {
         for (const auto& [key, value] : row.items()) {
             const std::string text = value.is_array() ? row_text(value) : scalar_text(value);
             out += out.empty() ? "" : ", ";
-            out += key == "name" ? text : fmt::format("{} {}", key, text);
+            out += key == "name" ? text : fmt::format("{} {}", printable(key), text);
         }
     } else if (row.is_array()) {
         for (const auto& value : row) {

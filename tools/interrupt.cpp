@@ -70,6 +70,10 @@ void watch_for_interrupts() {
     std::signal(SIGTERM, remember_interrupt);
 }
 
+void take_size_limits_as_errors() {
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
 bool interrupted() {
     return asked_to_stop != 0;
 }

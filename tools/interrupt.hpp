@@ -13,6 +13,9 @@ void watch_for_interrupts();
 
 bool interrupted();
 
+/// A file that would grow beyond `ulimit -f` is a write that fails, instead of a signal that kills (SIGXFSZ).
+void take_size_limits_as_errors();
+
 /// True for the first who asks: the one to say that the program was interrupted.
 bool tell_interrupted();
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/outputs.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <ctime>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "io/output_file.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
+#include "tools/session.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -22,7 +24,26 @@ namespace fs = std::filesystem;
 
 bool same_file(const std::string& a, const std::string& b) {
     std::error_code error;
-    return a == b || fs::equivalent(a, b, error);
+    return a == b || fs::equivalent(a, b, error) ||
+           fs::weakly_canonical(fs::absolute(a), error) ==
+               fs::weakly_canonical(fs::absolute(b), error);  // neither need exist
+}
+
+/// Calls `write`, and says of what goes wrong in a library which output it was for.
+template <class Write>
+void write_named(const std::string& path, const Write& write) {
+    try {
+        write();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw Error(fmt::format("cannot write {}: {}", path, out_of_memory));
+    } catch (const std::exception& error) {
+        throw Error(
+            fmt::format("cannot write {}: a library failed ({}); please report it, with the command and its "
+                        "inputs",
+                        path, error.what()));
+    }
 }
 
 /// Rethrows the current exception with the outputs that stand already.
@@ -38,7 +59,7 @@ bool same_file(const std::string& a, const std::string& b) {
         throw;
     } catch (const UsageError& error) {
         throw UsageError(fmt::format("{}; written before it: {}", error.what(), names));
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         throw Error(fmt::format("{}; written before it: {}", error.what(), names));
     }
 }
@@ -79,27 +100,33 @@ bool names_model(const std::string& path) {
 
 void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
                    const ExportArguments& arguments, const RunArguments& run) {
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const auto& path = paths[i];
+    for (const auto& path : paths) {
         if (!names_model(path)) {
             output_format(path, arguments.format);
         }
+    }
+    check_places(paths, inputs, run);
+}
+
+void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run) {
+    if (!run.report.empty() && run.report != "-") {
+        paths.push_back(run.report);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto& path = paths[i];
         for (std::size_t j = 0; j < i; ++j) {
             if (same_file(path, paths[j])) {
                 throw UsageError(fmt::format("{}: given twice as an output", path));
             }
         }
-        for (const auto& input : inputs) {
-            if (same_file(path, parse_source(input).path)) {
-                throw UsageError(fmt::format("{}: is an input; an output cannot replace it", path));
-            }
+        const auto is_input = [&](const std::string& input) { return same_file(path, parse_source(input).path); };
+        if (std::any_of(inputs.begin(), inputs.end(), is_input) ||
+            (!run.config.empty() && same_file(path, run.config))) {
+            throw UsageError(fmt::format("{}: is an input; an output cannot replace it", path));
         }
         if (!path.starts_with("PG:")) {
             require_writable(path, run.overwrite);
         }
-    }
-    if (!run.report.empty() && run.report != "-") {
-        require_writable(run.report, run.overwrite);
     }
 }
 
@@ -118,30 +145,32 @@ Written write_outputs(const Model& model, const Meshed* meshed, const std::vecto
     options.progress = progress;
     Written written;
     std::map<Collapsing, CollapsedModel> collapsed;
+    const auto write_output = [&](const std::string& path) {
+        if (names_model(path)) {
+            save_model(path, model, entry, run.overwrite);
+            std::error_code no_file;
+            const auto bytes = fs::file_size(path, no_file);
+            written.outputs.push_back({path, no_file ? 0 : bytes});
+            return;
+        }
+        const bool all = !model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format));
+        if (!all && !has_bounds(model)) {
+            written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
+            return;
+        }
+        const Collapsing which = all ? Collapsing::all : Collapsing::bounds;
+        if (!collapsed.contains(which)) {
+            collapsed.emplace(which, collapse_checked(model, *meshed, which));
+            written.collapse = all || !written.collapse ? collapsed.at(which).report : written.collapse;
+        }
+        const CollapsedModel& result = collapsed.at(which);
+        written.outputs.push_back(export_model({result.model, result.mesh, result.cells}, path, options));
+    };
     for (const auto& path : paths) {
         try {
             report_progress(progress, "write",
                             static_cast<double>(written.outputs.size()) / static_cast<double>(paths.size()));
-            if (names_model(path)) {
-                save_model(path, model, entry, run.overwrite);
-                std::error_code no_file;
-                const auto bytes = fs::file_size(path, no_file);
-                written.outputs.push_back({path, no_file ? 0 : bytes});
-                continue;
-            }
-            const bool all =
-                !model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format));
-            if (!all && !has_bounds(model)) {
-                written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
-                continue;
-            }
-            const Collapsing which = all ? Collapsing::all : Collapsing::bounds;
-            if (!collapsed.contains(which)) {
-                collapsed.emplace(which, collapse_checked(model, *meshed, which));
-                written.collapse = all || !written.collapse ? collapsed.at(which).report : written.collapse;
-            }
-            const CollapsedModel& result = collapsed.at(which);
-            written.outputs.push_back(export_model({result.model, result.mesh, result.cells}, path, options));
+            write_named(path, [&] { write_output(path); });
         } catch (...) {
             rethrow_naming(written.outputs);
         }

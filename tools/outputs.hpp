@@ -20,10 +20,13 @@ namespace terratet::tools {
 /// A GeoPackage or a PostGIS connection string.
 bool names_model(const std::string& path);
 
-/// Throws UsageError for an unknown format, a path given twice, or one that is an input
-/// too; Error for a missing folder or a file that exists without --overwrite.
+/// Throws UsageError for an unknown format, a path given twice, or one that is an input too, the
+/// report among them; Error for a missing folder or a file that exists without --overwrite.
 void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
                    const ExportArguments& arguments, const RunArguments& run);
+
+/// The same for outputs of other kinds: `paths` and the report.
+void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run);
 
 /// What all outputs but a model are made from.
 struct Meshed {

@@ -3,15 +3,15 @@
 #include "tools/report.hpp"
 
 #include <sys/resource.h>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "io/output_file.hpp"
-#include "tess/error.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/quality.hpp"
 #include "tools/calibration_json.hpp"
+#include "tools/printable.hpp"
+#include "tools/session.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
@@ -269,8 +269,7 @@ std::string report_text(const RunRecord& record) {
     }
     report["seconds"] = seconds_json(record);
     report["peak_memory_bytes"] = peak_memory_bytes();
-    // Paths and table cells may hold bytes that are no UTF-8: they must not cost the report.
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(report);
 }
 
 void write_report(const RunRecord& record, const RunArguments& run) {
@@ -279,9 +278,7 @@ void write_report(const RunRecord& record, const RunArguments& run) {
     }
     const std::string text = report_text(record);
     if (run.report == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-            throw Error("the report could not be written to standard output");
-        }
+        print(text);
         return;
     }
     OutputFile file(run.report, run.overwrite);

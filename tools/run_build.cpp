@@ -12,22 +12,6 @@
 #include "tools/session.hpp"
 
 namespace terratet::tools {
-namespace {
-
-std::vector<std::string> input_paths(const SiteArguments& site) {
-    std::vector<std::string> paths;
-    for (const auto* list :
-         {&site.boreholes, &site.surveys, &site.logs, &site.samples, &site.faults, &site.surfaces, &site.topography}) {
-        paths.insert(paths.end(), list->begin(), list->end());
-    }
-    if (!site.domain.empty()) {
-        paths.push_back(site.domain);
-    }
-    return paths;
-}
-
-}  // namespace
-
 int run_build(const std::string& command, const BuildArguments& a, const std::vector<Given>& given) {
     const Stopwatch total;
     check_before_reading(a.site, a.model, a.run);

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/session.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -18,16 +21,30 @@
 #include "tools/interrupt.hpp"
 #include "tools/json_usage.hpp"
 #include "tools/man_page.hpp"
+#include "tools/offline.hpp"
+#include "tools/printable.hpp"
 #include "tools/text.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
 namespace {
 
-/// Summaries and warnings go to standard error as they are; standard output carries data only.
+/// Nothing that a file holds reaches the terminal as it is.
+class PrintableFormatter final : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+        const std::string text = printable({message.payload.data(), message.payload.size()}, true) + "\n";
+        out.append(text.data(), text.data() + text.size());
+    }
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<PrintableFormatter>();
+    }
+};
+
+/// Summaries and warnings go to standard error; standard output carries data only.
 void start_log() {
     auto logger = std::make_shared<spdlog::logger>("terratet", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    logger->set_pattern("%v");
+    logger->set_formatter(std::make_unique<PrintableFormatter>());
     spdlog::set_default_logger(std::move(logger));
 }
 
@@ -62,17 +79,20 @@ int dispatch(const std::vector<std::string>& arguments) {
     const auto given = parse_arguments(command->syntax(), rest);
     const bool quiet = std::any_of(given.begin(), given.end(), [](const Given& option) { return option.name == "q"; });
     spdlog::set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+    stay_offline(arguments);
     return command->run(given);
 }
 
 int fail(int exit_code, const char* what) {
-    std::fprintf(stderr, "terratet: %s\n", one_line(what).c_str());
+    std::fprintf(stderr, "terratet: %s\n", printable(one_line(what)).c_str());
     return exit_code;
 }
 
 }  // namespace
 
-int print(const std::string& text) {
+int print(const std::string& data) {
+    const bool seen = isatty(STDOUT_FILENO) == 1;
+    const std::string text = seen ? printable(data, true) : data;
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
         throw Error("standard output cannot be written to");
     }
@@ -83,6 +103,7 @@ int run_terratet(const std::vector<std::string>& arguments) {
     try {
         start_log();
         watch_for_interrupts();
+        take_size_limits_as_errors();
         return dispatch(arguments);
     } catch (const UsageError& error) {
         return fail(exit_usage, error.what());
@@ -90,10 +111,16 @@ int run_terratet(const std::vector<std::string>& arguments) {
         return fail(exit_input, error.what());
     } catch (const Cancelled&) {
         return tell_interrupted() ? fail(exit_failed, "interrupted; nothing was written") : exit_failed;
-    } catch (const std::bad_alloc&) {
-        return fail(exit_failed, "out of memory; a larger --lmin or --voxel-size needs less");
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         return fail(exit_failed, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(exit_failed, out_of_memory);
+    } catch (const std::length_error&) {  // a list longer than there can be
+        return fail(exit_failed, out_of_memory);
+    } catch (const std::exception& error) {
+        return fail(exit_failed, (std::string("something failed that should not (") + error.what() +
+                                  "); please report it, with the command and its inputs")
+                                     .c_str());
     }
 }
 

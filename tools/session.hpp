@@ -22,8 +22,11 @@ inline constexpr int exit_unmet = 4;  ///< done, but criteria stay unmet and --s
 /// error that begins with "terratet: ", and an exit code; nothing is thrown.
 int run_terratet(const std::vector<std::string>& arguments);
 
-/// Writes data to standard output and returns exit_done. Throws Error when it cannot.
-int print(const std::string& text);
+/// Writes data to standard output and returns exit_done. Throws Error when it cannot. Where that is a terminal, what
+/// would change it is shown instead (printable.hpp).
+int print(const std::string& data);
+
+inline constexpr const char* out_of_memory = "out of memory; a larger --lmin or --voxel-size needs less";
 
 class Stopwatch {
   public:

@@ -9,11 +9,12 @@
 # What the library and the command need.
 BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
-  libgdal-dev libproj-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtinygltf-dev zlib1g-dev
+  libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtinygltf-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libeigen3-dev
 )
 # What the tests need besides: independent readers of our outputs among others.
 TEST_PACKAGES=(
+  clang-14 libclang-rt-14-dev
   catch2 python3 python3-vtk9 python3-openvdb python3-gdal libopenvdb-tools gdal-bin chromium fonts-dejavu-core
 )
 # Node may come from elsewhere than Debian, where its package would be in the way.

@@ -214,4 +214,15 @@ void composite_as_asked(Site& site, const SiteArguments& a, Diagnostics& diagnos
                     report.intervals, report.composites, a.composite, report.dropped));
 }
 
+std::vector<std::string> input_paths(const SiteArguments& a) {
+    std::vector<std::string> paths;
+    for (const auto* list : {&a.boreholes, &a.surveys, &a.logs, &a.samples, &a.faults, &a.surfaces, &a.topography}) {
+        paths.insert(paths.end(), list->begin(), list->end());
+    }
+    if (!a.domain.empty()) {
+        paths.push_back(a.domain);
+    }
+    return paths;
+}
+
 }  // namespace terratet::tools

@@ -46,6 +46,9 @@ ColumnNames column_names(const std::vector<std::string>& texts);
 /// Throws UsageError: no input at all, a word that is no choice, --layer, --where or --sql with several inputs.
 SiteInputs site_inputs(const SiteArguments& arguments, bool strict);
 
+/// All files that are named as inputs, as they were given.
+std::vector<std::string> input_paths(const SiteArguments& arguments);
+
 /// Composites the logs if --composite asks for it (interp/composite.hpp), and notes what came of it. Throws UsageError
 /// for what is no length above 0.
 void composite_as_asked(Site& site, const SiteArguments& arguments, Diagnostics& diagnostics);

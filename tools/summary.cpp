@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include "tools/printable.hpp"
 #include "tools/report.hpp"
 #include "tools/text.hpp"
 
@@ -13,7 +14,7 @@ std::string counted(std::uint64_t number, const std::string& thing) {
 }
 
 std::string line(const char* what, const std::string& text) {
-    return fmt::format("{:10}{}\n", what, wrapped(text, 10, 10, 100));
+    return fmt::format("{:10}{}\n", what, wrapped(printable(text), 10, 10, 100));
 }
 
 std::string input_lines(const BuildRecord& build) {

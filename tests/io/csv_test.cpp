@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "grid_model.hpp"
+#include "io/csv_text.hpp"
 #include "io/export.hpp"
+#include "io/read_table.hpp"
 #include "support.hpp"
 
 using namespace terratet;
@@ -112,4 +114,40 @@ TEST_CASE("CSV names owners, and quotes what needs it") {
         }
     }
     CHECK(samples > 50);
+}
+
+TEST_CASE("What a spreadsheet would run is marked, numbers are not, and our reader takes the mark away") {
+    const auto field = [](const std::string& text) {
+        std::string row;
+        append_csv_text(row, text);
+        return row;
+    };
+    CHECK(field("=1+1") == "'=1+1");
+    CHECK(field("+a") == "'+a");
+    CHECK(field("-2+3") == "'-2+3");
+    CHECK(field("@SUM(A1)") == "'@SUM(A1)");
+    CHECK(field("\t=1") == "'\t=1");
+    CHECK(field("\r=1") == "\"'\r=1\"");
+    CHECK(field("=cmd|' /C calc'!A0,\"x\"") == "\"'=cmd|' /C calc'!A0,\"\"x\"\"\"");
+    CHECK(field("'=a") == "''=a");
+    for (const char* text : {"-2", "+3.5", "-1e-300", "-", "", "a=b", "'quoted'", "x-1", "2-1"}) {
+        CHECK(field(text) == text);
+    }
+    const TemporaryFolder folder;
+    const std::vector<std::string> texts = {"=1+1", "'=a", "''+b", "-2", "-2+3", "@", "'", "it's", "-", "＝1", "end"};
+    std::string head = "x,y,z", cells = "1,2,3";
+    for (const std::string& text : texts) {
+        head += ',' + field("c" + text) + ',' + field(text);
+        cells += ',' + field(text) + ',' + field(text);
+    }
+    std::ofstream(folder / "a.csv") << head << '\n' << cells << '\n';
+    Source source;
+    source.path = folder / "a.csv";
+    const Table table = read_table(source);
+    REQUIRE(table.columns.size() == 3 + 2 * texts.size());
+    for (std::size_t i = 0; i + 1 < texts.size(); ++i) {  // blanks round the last one do not count
+        INFO(texts[i]);
+        CHECK(table.columns[4 + 2 * i] == texts[i]);
+        CHECK(table.cells[4 + 2 * i][0] == texts[i]);
+    }
 }

@@ -435,7 +435,8 @@ TEST_CASE("Damage by other programs is found and named by layer and row") {
     CHECK_THAT(message("UPDATE samples SET Cu_censored='?' WHERE fid=5"), Contains("layer samples, row 5: \"?\""));
     CHECK_THAT(message("UPDATE samples SET Cu_censored='>' WHERE fid=5"), Contains("digest differs"));
     CHECK_THAT(message("UPDATE vertices SET side=5 WHERE fid=7"), Contains("layer vertices, row 7: "));
-    CHECK_THAT(message("UPDATE vertices SET role='king' WHERE fid=7"), Contains("layer vertices, row 7: \"king\""));
+    CHECK_THAT(message("UPDATE vertices SET role='king' WHERE fid=7"),
+               Contains("layer vertices, row 7: column role holds king"));
     CHECK_THAT(message("UPDATE vertices SET owner=4711 WHERE fid=1"), Contains("layer vertices, row 1: its sample"));
     CHECK_THAT(message("UPDATE vertices SET id=0 WHERE fid=9"), Contains("layer vertices, row 9: ids do not ascend"));
     CHECK_THAT(message("UPDATE vertices SET id=NULL WHERE fid=9"), Contains("row 9: no value in column id"));

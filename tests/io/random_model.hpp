@@ -86,11 +86,17 @@ struct RandomModel {
 
     Property property() {
         Property p;
-        p.name = odd_name(random);
+        const auto taken = [&] {
+            return p.name.empty() || std::any_of(model.properties.begin(), model.properties.end(),
+                                                 [&](const Property& other) { return other.name == p.name; });
+        };
+        do {
+            p.name = odd_name(random);
+        } while (taken());
         p.unit = odd_name(random);
-        p.scale = random.below(2) ? Scale::log10 : Scale::linear;
         p.kind = random.below(3) == 0 ? Kind::categorical : Kind::continuous;
         p.hard_horizons = p.name.size() % 2 == 0;
+        p.scale = p.kind == Kind::continuous && random.below(2) ? Scale::log10 : Scale::linear;
         if (p.kind == Kind::categorical) {
             std::set<std::string> classes;
             while (classes.size() < 4) {
@@ -136,6 +142,7 @@ struct RandomModel {
                 b.path.push_back(place());
                 b.path_depth.push_back(random(0, 1000));
             }
+            std::sort(b.path_depth.begin(), b.path_depth.end());
             model.boreholes.push_back(b);
         }
     }
@@ -235,13 +242,18 @@ struct RandomModel {
         for (Fault& f : model.faults) {
             f.refined = model.fault_options.refine;
         }
-        if (random.below(4)) {  // else empty: infinities
-            model.domain = {{place(), place()}, {place(), place()}, {}};
-            for (std::uint64_t rings = random.below(3); rings > 0; --rings) {
-                model.domain.outline.push_back({place(), place(), place()});
+        const auto box_round = [&](Box3 some) {
+            for (int corners = 2; corners > 0; --corners) {
+                some.extend(place());
             }
+            return some;
+        };
+        const Box3 extent = box_round({});
+        model.domain = {extent, box_round(extent), {}};
+        for (std::uint64_t rings = random.below(3); rings > 0; --rings) {
+            model.domain.outline.push_back({place(), place(), place()});
         }
-        model.estimator = random.below(2) ? "idw:power=2:max_points=12" : odd_name(random);
+        model.estimator = random.below(2) ? "idw:power=2:max_points=12" : "nearest\nidw:power=3 of it's";
     }
 };
 
@@ -254,7 +266,9 @@ inline Model random_model(std::uint64_t seed) {
         r.model.frame.origin = choose_origin(r.box);
         r.box = {r.box.lo - r.model.frame.origin, r.box.hi - r.model.frame.origin};
         r.model.frame.crs_name = "EPSG:3067 ETRS89 / TM35FIN(E,N)";
-        r.model.frame.crs_wkt = "not a WKT \"at all\"";
+        r.model.frame.crs_wkt =
+            "ENGCRS[\"it's a \"\"local\"\" one\",EDATUM[\"naïve\"],CS[Cartesian,2],"
+            "AXIS[\"(E)\",east,ORDER[1],LENGTHUNIT[\"metre\",1]],AXIS[\"(N)\",north,ORDER[2],LENGTHUNIT[\"metre\",1]]]";
     }
     r.model.frame.metres_per_unit = r.random.below(2) ? 1 : 1200.0 / 3937;
     r.model.frame.unit = r.random.below(2) ? "metre" : odd_name(r.random);

@@ -104,6 +104,11 @@ TEST_CASE("text that is not UTF-8 is taken for Windows-1252, and the model can b
     REQUIRE(model.surfaces.size() == 2);
     CHECK(model.surfaces[0].name == "Söder");
     CHECK(model.surfaces[1].name == "förkastning");
+    model.criteria.l_min = 1;
+    model.criteria.l_max = 4;
+    model.domain.extent = {{-1, -1, -1}, {1, 1, 1}};
+    model.domain.hull = model.domain.extent;
+    model.estimator = "nearest";
     save_model(folder / "m.gpkg", model, {1, "", "build", "{}"});
     CHECK(load_model(folder / "m.gpkg").properties == model.properties);
 }

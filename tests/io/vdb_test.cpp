@@ -43,7 +43,7 @@ TEST_CASE("A VDB file's identity follows from its content: equal files have equa
     const std::string uuid = a.substr(uuid_begin, uuid_length);
     CHECK(uuid[14] == '8');  // version: the maker's own
     CHECK(uuid != c.substr(uuid_begin, uuid_length));
-    make_vdb_identity_reproducible(folder / "a.vdb");
+    make_vdb_identity_reproducible(folder / "a.vdb", "a.vdb");
     CHECK((bytes_of(folder / "a.vdb") == a));
 }
 
@@ -51,9 +51,9 @@ TEST_CASE("What does not begin as a VDB file is left alone") {
     const TemporaryFolder folder;
     const std::string text(200, 'x');
     std::ofstream(folder / "a.vdb") << text;
-    CHECK_THROWS_AS(make_vdb_identity_reproducible(folder / "a.vdb"), Error);
+    CHECK_THROWS_AS(make_vdb_identity_reproducible(folder / "a.vdb", "a.vdb"), Error);
     std::ofstream(folder / "b.vdb") << "short";
-    CHECK_THROWS_AS(make_vdb_identity_reproducible(folder / "b.vdb"), Error);
+    CHECK_THROWS_AS(make_vdb_identity_reproducible(folder / "b.vdb", "b.vdb"), Error);
     CHECK(bytes_of(folder / "a.vdb") == text);
 }
 

@@ -235,7 +235,12 @@ std::vector<double> class_values(const Table& table, const Choice& choice, std::
 
 PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
     for (const std::string& text : wanted) {
-        wanted_.push_back(parse_property(to_utf8(text)));
+        Property property = parse_property(to_utf8(text));
+        if (std::ranges::any_of(wanted_,
+                                [&](const Property& other) { return lower(other.name) == lower(property.name); })) {
+            throw UsageError("property '" + property.name + "' is asked for twice; name it once, with all that it is");
+        }
+        wanted_.push_back(std::move(property));
     }
 }
 

@@ -25,7 +25,8 @@ struct ValueColumn {
 /// property.
 class PropertyCatalogue {
   public:
-    /// \param wanted NAME[:log10][:categorical][:unit=U]; none: every numeric column.
+    /// \param wanted NAME[:log10][:categorical][:unit=U]; none: every numeric column. Throws UsageError for a name, in
+    ///                any case, that comes twice.
     explicit PropertyCatalogue(const std::vector<std::string>& wanted);
 
     /// Reads a table's property columns. Without `wanted` those are the columns that carry no known meaning and hold

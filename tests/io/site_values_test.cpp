@@ -35,6 +35,8 @@ TEST_CASE("properties: every numeric column, or those asked for with scale, unit
     CHECK(chosen.noted("1 values are not positive"));
     CHECK(chosen.site.properties[2].unit == "%");
 
+    hole.inputs.properties = {"CU", "cu:categorical"};
+    CHECK_THROWS_WITH(read(hole.inputs), Contains("property 'cu' is asked for twice"));
     hole.inputs.properties = {"ZN"};
     CHECK_THROWS_WITH(read(hole.inputs), Contains("ZN") && Contains("CU, Au (ppm)"));
     hole.inputs.properties = {"ROCK"};

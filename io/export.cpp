@@ -73,10 +73,12 @@ std::string output_format(const std::string& path, const std::string& override_f
 
 Vec3 resolved_voxel_size(const ModelView& view, const ExportOptions& options) {
     const Vec3 side = view.model.frame.to_world_size(view.model.domain.extent.size());
-    const double automatic = rounded_1_2_5(std::max({side.x, side.y, side.z}) / 128);
+    const double longest = std::max({side.x, side.y, side.z}) / 128;
+    const double flattened = std::max(1.0, view.model.frame.z_scale);  // thin voxels where the ground is stretched
+    const Vec3 automatic{rounded_1_2_5(longest), rounded_1_2_5(longest), rounded_1_2_5(longest / flattened)};
     Vec3 size = options.voxel_size;
     for (int axis = 0; axis < 3; ++axis) {
-        size[axis] = size[axis] == 0 ? automatic : size[axis];
+        size[axis] = size[axis] == 0 ? automatic[axis] : size[axis];
     }
     return size;
 }

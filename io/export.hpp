@@ -35,7 +35,8 @@ struct ExportOptions {
     bool overwrite = false;
     bool clip = false;           ///< VTU: only cells in the extent, cut at its planes
     bool compress = false;       ///< VTU: zlib blocks
-    Vec3 voxel_size{0, 0, 0};    ///< 0: the extent's longest side / 128, rounded to 1-2-5
+    Vec3 voxel_size{0, 0, 0};    ///< 0: the extent's longest side / 128, over the frame's z_scale in z, rounded to
+                                 ///< 1-2-5
     bool local_origin = false;   ///< VDB: grid in frame-local coordinates, for float-based tools
     std::string color_property;  ///< glTF: which property colours the scene; empty: the first
     std::string color_map = "viridis";

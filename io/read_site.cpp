@@ -14,6 +14,7 @@
 #include "io/read_surfaces.hpp"
 #include "io/read_values.hpp"
 #include "tess/error.hpp"
+#include "tess/site_box.hpp"
 
 namespace terratet {
 
@@ -291,6 +292,20 @@ Frame frame_of(const Crs& crs, const Box3& extent, double z_scale) {
     return {crs.local ? "" : crs.wkt, crs.name, crs.unit, crs.metres_per_unit, choose_origin(extent), z_scale};
 }
 
+/// Flat data are tessellated in stretched z.
+double chosen_z_scale(const Site& site, const Crs& target, Diagnostics& diagnostics) {
+    const Box3 box = site_box(site, target.metres_per_unit).box;
+    const double scale = suitable_z_scale(box);
+    if (scale > 1) {
+        diagnostics.note(
+            fmt::format("the data are {:.3g} times as wide as high: they are tessellated as if {:g} times as high, "
+                        "where lengths and "
+                        "shapes are judged (--z-scale; 1 leaves them as they are)",
+                        flatness(box), scale));
+    }
+    return scale;
+}
+
 /// From true coordinates to frame-local ones.
 void localize(Site& site, const Crs& target, double z_scale) {
     Box3 extent;
@@ -352,7 +367,7 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
     for (RawSurfaces& raw : read.surfaces) {
         std::ranges::move(raw.surfaces, std::back_inserter(site.surfaces));
     }
-    localize(site, target, inputs.z_scale);
+    localize(site, target, inputs.z_scale > 0 ? inputs.z_scale : chosen_z_scale(site, target, diagnostics));
     site.samples = selected(site.samples, canonical_order(site.samples));
     std::ranges::sort(site.surfaces, surface_before);
 

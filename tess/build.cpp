@@ -9,9 +9,11 @@
 #include <unordered_set>
 
 #include "tess/box_clip.hpp"
+#include "tess/build_defaults.hpp"
 #include "tess/error.hpp"
 #include "tess/fault_blocks.hpp"
 #include "tess/fault_preparation.hpp"
+#include "tess/vertex_demand.hpp"
 
 namespace terratet {
 
@@ -51,28 +53,6 @@ void canonicalise(Site& site, BuildReport& report) {
     std::ranges::stable_sort(site.surfaces, [](const Surface& a, const Surface& b) {
         return std::tie(a.name, a.vertices, a.triangles) < std::tie(b.name, b.vertices, b.triangles);
     });
-}
-
-Box3 data_box(const Site& site) {
-    Box3 box = bounding_box(site.samples.positions);
-    for (const Borehole& borehole : site.boreholes) {
-        for (const Vec3& p : borehole.path) {
-            box.extend(p);
-        }
-    }
-    return box;
-}
-
-/// The highest point of the topography over the extent; −infinity without one.
-double top_of_ground(const Site& site, const Box3& extent) {
-    double top = -std::numeric_limits<double>::infinity();
-    for (const Surface& surface : site.surfaces) {
-        for (const Vec3& p : surface.vertices) {
-            const bool over = p.x >= extent.lo.x && p.x <= extent.hi.x && p.y >= extent.lo.y && p.y <= extent.hi.y;
-            top = surface.kind == SurfaceKind::topography && over ? std::max(top, p.z) : top;
-        }
-    }
-    return top;
 }
 
 /// Throws UsageError for a topography or a domain in exact mode: its seeds cannot meet on the surface
@@ -135,11 +115,6 @@ void require_ground(const Model& model, const BuildReport& report) {
              << "it, between bottom and top; choose an --extent within it";
         throw InputError(text.str());
     }
-}
-
-const Surface* domain_surface(const Site& site) {
-    const auto found = std::ranges::find(site.surfaces, SurfaceKind::domain, &Surface::kind);
-    return found == site.surfaces.end() ? nullptr : &*found;
 }
 
 /// Throws InputError when a wall of the domain is missing: the model would run out there.
@@ -206,104 +181,6 @@ void join_walls(const Surface& domain, std::vector<FaultAccount>& accounts) {
     std::erase_if(accounts, [](const FaultAccount& account) { return account.kind == SurfaceKind::domain; });
     const auto at = std::ranges::upper_bound(accounts, joined.name, {}, &FaultAccount::name);
     accounts.insert(at, std::move(joined));
-}
-
-/// Draws the domain's outline, if there is one, to the walls' spacing. Throws InputError when nothing of it is left.
-void draw_outline(const Site& site, const BuildOptions& options, Model& model, BuildReport& report) {
-    const Surface* const domain = domain_surface(site);
-    if (domain == nullptr) {
-        return;
-    }
-    const double spacing = options.faults.spacing > 0 ? options.faults.spacing : model.criteria.l_min;
-    OutlineReport drawn;
-    model.domain.outline = outline_of(site.surfaces, spacing, drawn);
-    std::ostringstream text;
-    text.precision(6);
-    if (model.domain.outline.empty()) {
-        text << domain->file << ": the domain's area, " << drawn.area_in
-             << ", is less than the square of the fault spacing, " << spacing
-             << "; is its coordinate system right (srs=)? Else give a smaller --fault-spacing";
-        throw InputError(text.str());
-    }
-    if (drawn.corners < drawn.corners_in) {
-        text << domain->file << ": the domain is drawn to the fault spacing " << spacing << ": " << drawn.corners
-             << " of " << drawn.corners_in << " corners are left, its boundary moved by " << drawn.deviation
-             << " at most, its area by " << 100 * std::abs(drawn.area - drawn.area_in) / drawn.area_in << " %";
-        if (drawn.dropped > 0) {
-            text << "; " << drawn.dropped << " rings smaller than the spacing are left out";
-        }
-        report.diagnostics.note(text.str());
-    }
-}
-
-/// The data's box in plan, or that of the domain and L_min more where that is smaller. Throws InputError when they are
-/// apart.
-Box3 bounded(Box3 extent, const Box3& data, const Site& site, const Model& model) {
-    Box3 plan = bounding_box(model.domain.outline);
-    for (const int axis : {0, 1}) {
-        if (plan.hi[axis] < data.lo[axis] || plan.lo[axis] > data.hi[axis]) {
-            const Vec3 lo = model.frame.to_world(plan.lo);
-            const Vec3 hi = model.frame.to_world(plan.hi);
-            std::ostringstream text;
-            text.precision(9);
-            text << domain_surface(site)->file << ": the domain, from (" << lo.x << ", " << lo.y << ") to (" << hi.x
-                 << ", " << hi.y << "), lies wholly outside the "
-                 << "data; is its coordinate system right? Name it with srs= after the file";
-            throw InputError(text.str());
-        }
-        extent.lo[axis] = std::max(extent.lo[axis], plan.lo[axis] - model.criteria.l_min);
-        extent.hi[axis] = std::min(extent.hi[axis], plan.hi[axis] + model.criteria.l_min);
-    }
-    return extent;
-}
-
-/// Fills in the defaults: resolution from the size of the data, extent from data and resolution.
-void resolve_resolution(const Site& site, const BuildOptions& options, Model& model, BuildReport& report) {
-    const Box3 data = data_box(site);
-    if (data.empty() && options.extent.empty()) {
-        throw InputError("there is nothing to build from: no usable sample or borehole, and no --extent");
-    }
-    const double diagonal = (options.extent.empty() ? data : options.extent).diagonal();
-    model.criteria = options.criteria;
-    if (model.criteria.l_min == 0) {
-        model.criteria.l_min = diagonal > 0 ? diagonal / 100 : 1;
-    }
-    if (model.criteria.l_max == 0) {
-        model.criteria.l_max = 4 * model.criteria.l_min;
-    }
-    model.criteria.variation.resize(site.properties.size());
-    validate(model.criteria);
-    draw_outline(site, options, model, report);
-    Box3 extent =
-        options.extent.empty() ? data.grown(options.pad < 0 ? model.criteria.l_max : options.pad) : options.extent;
-    if (!model.domain.outline.empty()) {
-        const Box3 within = bounded(extent, options.extent.empty() ? data : extent, site, model);
-        extent = options.extent.empty() ? within : extent;
-    }
-    if (options.extent.empty()) {
-        extent.hi.z = std::max(extent.hi.z, top_of_ground(site, extent) + model.criteria.l_min);
-    }
-    extent = {model.frame.snapped(extent.lo), model.frame.snapped(extent.hi)};
-    const Vec3 size = extent.size();
-    if (std::min({size.x, size.y, size.z}) < model.criteria.l_min) {
-        throw UsageError("the extent (" + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " +
-                         std::to_string(size.z) + ") is thinner than --lmin " + std::to_string(model.criteria.l_min) +
-                         "; give a larger --extent or --pad, or a smaller --lmin");
-    }
-    model.domain.extent = model.domain.hull = extent;
-}
-
-/// Cells as long as the site is wide and as thin as it is high are slivers; in stretched z they are not.
-void suggest_z_scale(const Model& model, BuildReport& report) {
-    const Vec3 size = model.domain.extent.size();
-    const double ratio = std::min(size.x, size.y) / size.z;
-    if (ratio > 10) {
-        std::ostringstream note;
-        note.precision(3);
-        note << "the extent is " << ratio << " times as wide as high; consider --z-scale "
-             << model.frame.z_scale * std::pow(10, std::floor(std::log10(ratio / 2)));
-        report.diagnostics.note(note.str());
-    }
 }
 
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
@@ -481,8 +358,8 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     Model model;
     canonicalise(site, report);
     static_cast<Site&>(model) = std::move(site);
-    resolve_resolution(model, options, model, report);
-    suggest_z_scale(model, report);
+    resolve_resolution(options, model, report);
+    require_affordable(model, options);
     model.density = options.density;
     model.estimator = options.estimator;
     {

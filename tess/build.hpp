@@ -18,8 +18,8 @@ namespace terratet {
 
 struct BuildOptions {
     Box3 extent;        ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
-    double pad = -1;    ///< negative: l_max
-    Criteria criteria;  ///< l_min 0: diagonal/100; l_max 0: 4 l_min
+    double pad = -1;    ///< negative: l_max in plan, a quarter of the data's height (l_min to l_max) vertically
+    Criteria criteria;  ///< l_min 0: the data's diagonal/100, those far off left out (site_box.hpp); l_max 0: 4 l_min
     DensityMode density = DensityMode::canonical;
     std::vector<RegionName> region_names;  ///< points frame-local
     FaultOptions faults;
@@ -51,8 +51,9 @@ struct BuildReport {
 using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
 
 /// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
-/// is exceeded, UsageError when the point that names a region lies in none, or two of them in the same. The result does
-/// not depend on the order of the site's rows (R6).
+/// is exceeded, UsageError when the criteria ask for more than refine.max_vertices, before any is made, when the point
+/// that names a region lies in none, or two of them in the same. The result does not depend on the order of the site's
+/// rows (R6).
 Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
             const Progress& progress = {});
 

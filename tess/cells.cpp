@@ -39,7 +39,11 @@ class Explainer {
     Explainer(const Model& model, const TetMesh& mesh)
         : mesh_(mesh),
           proximity_(model_proximity(model)),
-          rule_(model.criteria, model.domain, model.frame, proximity_, model.properties, model.vertex_values) {}
+          rule_(model.criteria, model.domain, model.frame, proximity_, model.properties, model.vertex_values) {
+        for (const Vec3& p : mesh.points) {
+            rule_.note_vertex(p);
+        }
+    }
 
     Reason operator()(const std::array<std::uint32_t, 4>& cell) {
         const JudgedCell judged_cell = judged(mesh_, cell);
@@ -50,16 +54,22 @@ class Explainer {
             return Reason::smooth;
         }
         const Proposal proposal = rule_.propose(judged_cell);
-        if (proposal.reason != Reason::none) {
-            return proposal.reason;
+        const Reason reason = proposal.reason != Reason::none ? proposal.reason
+                              : crowded(proposal.point)       ? Reason::too_close
+                                                              : Reason::none;
+        if (reason == Reason::none || !proposal.projected) {
+            return reason;
         }
-        if (vertices().any_within(proposal.point, rule_.resolution().l_min(proposal.point))) {
-            return proposal.projected ? Reason::near_face : Reason::too_close;
+        const auto instead = rule_.instead_of_split(judged_cell);
+        if (!instead || crowded(*instead)) {
+            return reason == Reason::too_close ? Reason::near_face : reason;
         }
         return Reason::none;
     }
 
   private:
+    bool crowded(const Vec3& place) { return vertices().any_within(place, rule_.resolution().l_min(place)); }
+
     const PointGrid& vertices() {
         if (!vertices_) {
             vertices_.emplace(rule_.resolution().largest_l_min());

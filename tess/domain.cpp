@@ -3,23 +3,11 @@
 #include "tess/domain.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
+#include "tess/grid_steps.hpp"
 #include "tess/point_grid.hpp"
 
 namespace terratet {
-
-namespace {
-
-/// How many equal steps divide a side: fine enough for l_max, never finer than l_min.
-int steps(double side, double l_min, double l_max) {
-    const double wanted = std::ceil(side / (l_max / std::numbers::sqrt2));
-    const double allowed = std::floor(side / l_min);
-    return static_cast<int>(std::max(1.0, std::min(wanted, allowed)));
-}
-
-}  // namespace
 
 std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
                             const Frame& frame) {
@@ -28,9 +16,8 @@ std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::s
         near.insert(p);
     }
     std::array<int, 3> n{};
-    for (int axis = 0; axis < 3; ++axis) {
-        n[static_cast<std::size_t>(axis)] = steps(hull.size()[axis], l_min, l_max);
-    }
+    std::ranges::transform(grid_steps(hull, l_min, l_max), n.begin(),
+                           [](double steps) { return static_cast<int>(steps); });
     const auto coordinate = [&](int axis, int i) {
         const int last = n[static_cast<std::size_t>(axis)];
         return i == last ? hull.hi[axis] : hull.lo[axis] + hull.size()[axis] * i / last;

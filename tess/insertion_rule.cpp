@@ -40,12 +40,14 @@ InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, con
       frame_(frame),
       faults_(faults),
       resolution_(criteria, domain, faults.faults()),
+      faces_of_box_(domain.hull),
       properties_(properties),
       values_(values),
       has_variation_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_max > 0; })),
       has_smooth_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_min > 0; })) {}
 
-double InsertionRule::shape_violation(const JudgedCell& cell) const {
+/// Of edges, R/ℓ and volume: what insertion mends for certain.
+double InsertionRule::size_violation(const JudgedCell& cell) const {
     const CellPoints& p = cell.points;
     double shortest = std::numeric_limits<double>::infinity();
     double longest = 0;
@@ -69,8 +71,14 @@ double InsertionRule::shape_violation(const JudgedCell& cell) const {
     if (criteria_.v_max > 0 && !(volume <= criteria_.v_max)) {
         worst = std::max(worst, std::cbrt(volume / criteria_.v_max));
     }
+    return worst;
+}
+
+double InsertionRule::shape_violation(const JudgedCell& cell) const {
+    double worst = size_violation(cell);
     if (criteria_.aspect > 0 && worst <= 1) {
-        worst = std::max(worst, aspect_violation(p, sphere.squared_radius, volume, criteria_.aspect));
+        const double volume = std::abs(cell.sphere.six_volumes) / 6;
+        worst = std::max(worst, aspect_violation(cell.points, cell.sphere.squared_radius, volume, criteria_.aspect));
     }
     return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
 }
@@ -93,6 +101,10 @@ double InsertionRule::variation_violation(const JudgedCell& cell) const {
         }
     }
     return worst;
+}
+
+bool InsertionRule::merely_flat(const JudgedCell& cell) const {
+    return size_violation(cell) <= 1 && (!has_variation_ || variation_violation(cell) <= 1);
 }
 
 bool InsertionRule::smooth(const JudgedCell& cell) const {
@@ -145,22 +157,13 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
         proposal.reason = Reason::no_center;
         return proposal;
     }
-    proposal.point = sphere.center;
-    const double margin = resolution_.l_min(proposal.point) / 2;
-    for (int axis = 0; axis < 3; ++axis) {
-        double& x = proposal.point[axis];
-        if (x < domain_.hull.lo[axis] + margin) {
-            x = domain_.hull.lo[axis];
-            proposal.projected = true;
-        } else if (x > domain_.hull.hi[axis] - margin) {
-            x = domain_.hull.hi[axis];
-            proposal.projected = true;
-        }
-    }
-    if (proposal.radius < resolution_.l_min(proposal.point)) {  // the nearest vertex is at exactly R
+    if (proposal.radius < resolution_.l_min(domain_.hull.clamped(sphere.center))) {  // the nearest vertex is at R
         proposal.reason = Reason::too_close;
         return proposal;
     }
+    const auto split = faces_of_box_.split_for(sphere.center);
+    proposal.projected = split.has_value();
+    proposal.point = split.value_or(sphere.center);
     proposal.point = frame_.snapped(proposal.point);
     if (!faults_.empty() && faults_.protecting_fault(proposal.point) >= 0) {
         proposal.reason = Reason::near_fault;
@@ -168,8 +171,26 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
     return proposal;
 }
 
+std::optional<Vec3> InsertionRule::instead_of_split(const JudgedCell& cell) const {
+    const Vec3& centre = cell.sphere.center;
+    const double radius = std::sqrt(cell.sphere.squared_radius);
+    const double margin = std::max(resolution_.l_min(domain_.hull.clamped(centre)) / 2, radius / 4);
+    Vec3 place = centre;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (centre[axis] < domain_.hull.lo[axis] + margin) {
+            place[axis] = domain_.hull.lo[axis];
+        } else if (centre[axis] > domain_.hull.hi[axis] - margin) {
+            place[axis] = domain_.hull.hi[axis];
+        }
+    }
+    place = frame_.snapped(place);
+    const bool allowed = distance(place, centre) <= radius / 2 && radius >= resolution_.l_min(place) &&
+                         (faults_.empty() || faults_.protecting_fault(place) < 0);
+    return allowed ? std::optional(place) : std::nullopt;
+}
+
 bool InsertionRule::allows(const Vec3& point) const {
-    return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) &&
+    return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) && !faces_of_box_.split_for(point) &&
            (faults_.empty() || faults_.protecting_fault(point) < 0);
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <span>
 
+#include "tess/box_faces.hpp"
 #include "tess/criteria.hpp"
 #include "tess/domain.hpp"
 #include "tess/fault_proximity.hpp"
@@ -31,7 +32,7 @@ struct JudgedCell {
 struct Proposal {
     Reason reason = Reason::none;  ///< none: acceptable so far
     Vec3 point;                    ///< snapped
-    bool projected = false;        ///< moved onto the hull box
+    bool projected = false;        ///< a split of the hull box' boundary in the circumcentre's stead
     double radius = 0;             ///< of the circumsphere
 };
 
@@ -44,6 +45,9 @@ class InsertionRule {
     InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame, const FaultProximity& faults,
                   std::span<const Property> properties, const VertexValues& values);
 
+    /// Tells of a vertex: those on the hull box count for rule 3. All have to be told of before a place is asked for.
+    void note_vertex(const Vec3& place) { faces_of_box_.insert(place); }
+
     /// Largest ratio of a measure to its limit over the insertion criteria in force; above 1 the cell is bad. Exact
     /// only above 1. Exemption as smooth is not considered.
     [[nodiscard]] double violation(const JudgedCell& cell) const;
@@ -54,10 +58,18 @@ class InsertionRule {
     /// What is left of the violation when a smooth cell's shape and l_max are forgiven.
     [[nodiscard]] double violation_in_force(const JudgedCell& cell) const;
 
+    /// Of a bad cell: by its aspect alone.
+    [[nodiscard]] bool merely_flat(const JudgedCell& cell) const;
+
     /// Rules 2 and 3.
     [[nodiscard]] Proposal propose(const JudgedCell& cell) const;
 
-    /// Rules 2 and 3 for a point near a circumcentre (rule 4): in the box but not on it, outside the faults' zones.
+    /// If the split proposed comes too near a vertex: the circumcentre after all, or on the box where that is near;
+    /// none when the box is so far from it that another vertex may be nearer than half the circumradius.
+    [[nodiscard]] std::optional<Vec3> instead_of_split(const JudgedCell& cell) const;
+
+    /// Rules 2 and 3 for a point near a circumcentre (rule 4): in the box, outside the balls of its boundary's parts
+    /// and the faults' zones.
     [[nodiscard]] bool allows(const Vec3& point) const;
 
     /// Nearer than l_min to the hull box, or on it.
@@ -66,6 +78,7 @@ class InsertionRule {
     [[nodiscard]] const ResolutionField& resolution() const { return resolution_; }
 
   private:
+    [[nodiscard]] double size_violation(const JudgedCell& cell) const;
     [[nodiscard]] double shape_violation(const JudgedCell& cell) const;
     [[nodiscard]] double variation_violation(const JudgedCell& cell) const;
     [[nodiscard]] bool near_face(const Vec3& point, double margin) const;
@@ -75,6 +88,7 @@ class InsertionRule {
     const Frame& frame_;
     const FaultProximity& faults_;
     ResolutionField resolution_;
+    BoxFaces faces_of_box_;
     std::span<const Property> properties_;
     const VertexValues& values_;
     bool has_variation_;

@@ -23,9 +23,11 @@ using delaunay::Cell;
 using delaunay::Facet;
 
 /// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do better,
-/// and trying seven more points for each would cost more than it saves.
+/// and trying more points for each would cost more than it saves.
 const double poor_star = sharpness(std::cos(20 * std::numbers::pi / 180));
 constexpr int candidate_count = 7;
+/// For a cell that is merely flat: its shape is a matter of luck, and a vertex in vain asks for more and shorter edges.
+constexpr int candidate_count_if_flat = 28;
 
 class Refiner {
   public:
@@ -43,13 +45,18 @@ class Refiner {
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
           has_faults_(!faults.empty()) {
         report_.bound = rule_.resolution().packing_bound();
+        for (const Vertex& vertex : kernel_.vertices) {
+            rule_.note_vertex(vertex.position);
+        }
     }
 
     RefineReport run() {
         queue_all();
-        while (const auto cell = queue_.pop()) {
-            treat(*cell);
-        }
+        do {
+            while (const auto cell = queue_.pop()) {
+                treat(*cell);
+            }
+        } while (retry());
         if (options_.clean_up) {
             clean_up();
         }
@@ -95,29 +102,65 @@ class Refiner {
         }
     }
 
+    /// Queues again what the boundary stood in the way of, if that has been split meanwhile: there may be another way
+    /// now.
+    bool retry() {
+        if (report_.inserted == inserted_before_retry_) {
+            return false;
+        }
+        inserted_before_retry_ = report_.inserted;
+        std::vector<Cell> cells;
+        for (const auto& v : std::exchange(at_boundary_, {})) {
+            Cell cell;
+            if (kernel_.triangulation.is_cell(v[0], v[1], v[2], v[3], cell)) {
+                cells.push_back(cell);
+            }
+        }
+        queue_bad(cells);
+        return true;
+    }
+
+    void put_off(Cell cell) {
+        at_boundary_.push_back({cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
+    }
+
     void treat(Cell cell) {
         const JudgedCell judged_cell = judged(cell);
         const Proposal proposal = rule_.propose(judged_cell);
-        if (proposal.reason != Reason::none) {
-            return;
-        }
-        Cell start = cell;
         if (proposal.projected) {
-            delaunay::Triangulation::Locate_type where{};
-            int i = 0;
-            int j = 0;
-            start = kernel_.triangulation.locate(delaunay::to_cgal(proposal.point), where, i, j, cell);
-            if (where == delaunay::Triangulation::VERTEX || kernel_.triangulation.is_infinite(start)) {
+            if (proposal.reason == Reason::none && split(cell, judged_cell, proposal.point)) {
                 return;
             }
+            const auto instead = rule_.instead_of_split(judged_cell);
+            if (!instead || !find_zone(*instead, cell, zone_)) {
+                return put_off(cell);
+            }
+            return insert(zone_);
         }
-        if (!find_zone(proposal.point, start, zone_)) {
+        if (proposal.reason != Reason::none || !find_zone(proposal.point, cell, zone_)) {
             return;
         }
-        if (options_.candidates && !proposal.projected) {
+        if (options_.candidates) {
             improve(judged_cell, proposal, cell);
         }
         insert(zone_);
+    }
+
+    /// Splits the boundary there. False when that is too near a vertex.
+    bool split(Cell cell, const JudgedCell& judged_cell, const Vec3& place) {
+        delaunay::Triangulation::Locate_type where{};
+        int i = 0;
+        int j = 0;
+        const Cell start = kernel_.triangulation.locate(delaunay::to_cgal(place), where, i, j, cell);
+        if (where == delaunay::Triangulation::VERTEX || kernel_.triangulation.is_infinite(start) ||
+            !find_zone(place, start, zone_)) {
+            return false;
+        }
+        if (std::ranges::find(zone_.cells, cell) == zone_.cells.end()) {
+            queue_.push(cell, rule_.violation_in_force(judged_cell));  // it outlives the split: its turn comes again
+        }
+        insert(zone_);
+        return true;
     }
 
     /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
@@ -129,8 +172,8 @@ class Refiner {
         });
     }
 
-    /// Rule 4: where the circumcentre would make a poor star, the first of seven points around it that makes a fair
-    /// one, or the best of all eight.
+    /// Rule 4: where the circumcentre would make a poor star, the first of some points around it that makes a fair
+    /// one, or the best of all.
     void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
         double best = -1;
         for (const Facet& facet : zone_.boundary) {
@@ -142,7 +185,8 @@ class Refiner {
         std::array<std::uint64_t, 4> ids{};
         std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
         BallPoints ball(ids);
-        for (int i = 0; i < candidate_count && best > poor_star; ++i) {
+        const int count = rule_.merely_flat(cell) ? candidate_count_if_flat : candidate_count;
+        for (int i = 0; i < count && best > poor_star; ++i) {
             const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
             if (rule_.allows(point) && find_fairer_zone(point, start, best)) {
                 std::swap(zone_, candidate_);
@@ -208,6 +252,7 @@ class Refiner {
             triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
                                          zone.boundary.front().first, zone.boundary.front().second);
         vertex->info() = vertices_.append(zone.point);
+        rule_.note_vertex(zone.point);
         ++report_.inserted;
         star_.clear();
         for (const auto& [cell, k] : outside_) {
@@ -254,6 +299,8 @@ class Refiner {
     bool has_faults_;
     CellQueue queue_;
     RefineReport report_;
+    std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
+    std::uint64_t inserted_before_retry_ = 0;
     double told_ = 0;
     Zone zone_;
     Zone candidate_;

@@ -24,6 +24,14 @@ bool touch(const Box3& a, const Box3& b) {
 struct ResolutionField::Blocks : FaultBlocks {
     using FaultBlocks::FaultBlocks;
     std::vector<std::int32_t> of_override;  ///< block that each override names; −1: none
+
+    /// The same whatever was asked before: between two cells, as the middle of an edge of the hull box may be, the one
+    /// towards a point of no symmetry.
+    [[nodiscard]] std::int32_t block_at(const Vec3& place, const Box3& hull) const {
+        const Vec3 size = hull.size();
+        const Vec3 target = hull.lo + Vec3{0.37 * size.x, 0.53 * size.y, 0.71 * size.z};
+        return at(place + 1e-6 * (target - place));  // more than the walk forgives
+    }
 };
 
 ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults)
@@ -47,7 +55,7 @@ ResolutionField::~ResolutionField() = default;
 ResolutionField::ResolutionField(ResolutionField&&) noexcept = default;
 
 double ResolutionField::l_min_by_part(const Vec3& place) const {
-    const std::int32_t block = blocks_ ? blocks_->at(place) : -1;
+    const std::int32_t block = blocks_ ? blocks_->block_at(place, domain_.hull) : -1;
     for (std::size_t i = criteria_.overrides.size(); i-- > 0;) {
         const ResolutionOverride& part = criteria_.overrides[i];
         if (part.where == Where::box ? part.box.contains(place) : block >= 0 && blocks_->of_override[i] == block) {
@@ -59,7 +67,8 @@ double ResolutionField::l_min_by_part(const Vec3& place) const {
 
 double ResolutionField::l_max_by_part(const CellPoints& cell) const {
     const Box3 box = bounding_box(cell);
-    const std::int32_t block = blocks_ ? blocks_->at(0.25 * (cell[0] + cell[1] + cell[2] + cell[3])) : -1;
+    const std::int32_t block =
+        blocks_ ? blocks_->block_at(0.25 * (cell[0] + cell[1] + cell[2] + cell[3]), domain_.hull) : -1;
     double finest = std::numeric_limits<double>::infinity();
     for (std::size_t i = criteria_.overrides.size(); i-- > 0;) {
         const ResolutionOverride& part = criteria_.overrides[i];

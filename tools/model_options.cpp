@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/memory_limit.hpp"
 #include "io/read_table.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
@@ -210,6 +211,9 @@ FaultMode fault_mode(const std::string& text) {
     return choose<FaultMode>("--fault-mode", text, {{"paired", FaultMode::paired}, {"exact", FaultMode::exact}});
 }
 
+/// From sites to outputs, all told; refinement alone takes half of it.
+constexpr std::uint64_t bytes_per_vertex = 2000;
+
 DensityMode density_mode(const std::string& text) {
     return choose<DensityMode>("--density", text,
                                {{"canonical", DensityMode::canonical}, {"paper", DensityMode::paper}});
@@ -246,7 +250,7 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               &a.dihedral_deg},
              {{"vmin"}, "V", "smallest volume wanted: the clean-up mends what it can", &a.v_min},
              {{"vmax"}, "V", "largest volume", &a.v_max},
-             {{"max-vertices"}, "N", "give up beyond. Default 50000000", &a.max_vertices},
+             {{"max-vertices"}, "N", "refuse or give up beyond; by default what fits into memory", &a.max_vertices},
          }},
         {"The model",
          {
@@ -255,7 +259,10 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "what to model; by default the data's box and --pad",
               &a.extent,
               6},
-             {{"pad"}, "LENGTH", "around the data's box; by default --lmax", &a.pad},
+             {{"pad"},
+              "LENGTH",
+              "around the data's box; by default --lmax in plan, a quarter of the data's height above and below",
+              &a.pad},
              {{"density"},
               "HOW",
               "canonical (default) keeps all samples that fit --lmin; paper deletes as the paper does",
@@ -373,7 +380,8 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     options.faults.snap = positive_length("--fault-snap", a.fault_snap, unit);
     options.faults.mode = fault_mode(a.fault_mode);
     options.faults.refine = a.fault_refine;
-    options.refine.max_vertices = a.max_vertices;
+    options.refine.max_vertices =
+        a.max_vertices == fitting_vertices ? memory_limit() / bytes_per_vertex : a.max_vertices;
     options.estimator = parse_estimator(a.estimator).to_string();
     return options;
 }

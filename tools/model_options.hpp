@@ -5,6 +5,7 @@
 /// What to build: the options behind tess/build.hpp. Lengths stay text until the unit of the model's CRS is known.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "tools/option.hpp"
 
 namespace terratet::tools {
+
+/// Not given: as many as the memory is thought to hold.
+inline constexpr auto fitting_vertices = std::numeric_limits<std::uint64_t>::max();
 
 struct ModelArguments {
     std::string extent;
@@ -36,7 +40,7 @@ struct ModelArguments {
     std::string fault_snap;
     bool fault_refine = false;
     std::string estimator = EstimatorSpec{}.name;
-    std::uint64_t max_vertices = RefineOptions{}.max_vertices;
+    std::uint64_t max_vertices = fitting_vertices;
 };
 
 std::vector<OptionGroup> model_options(ModelArguments& arguments);

@@ -19,7 +19,8 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArguments& a, const Model& model) {
+std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArguments& a, bool z_scale_given,
+                                                                 const Model& model) {
     std::vector<std::pair<std::string, std::string>> chosen;
     const auto add = [&](bool given, const char* name, double value) {
         if (!given) {
@@ -29,12 +30,12 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
     add(!a.l_min.empty(), "lmin", model.criteria.l_min);
     add(!a.l_max.empty(), "lmax", model.criteria.l_max);
     if (a.extent.empty()) {
-        add(!a.pad.empty(), "pad", model.criteria.l_max);
         const Vec3 lo = model.frame.to_world(model.domain.extent.lo);
         const Vec3 hi = model.frame.to_world(model.domain.extent.hi);
         chosen.emplace_back("extent", fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{:.10g},{:.10g}", lo.x, lo.y, lo.z,
                                                   hi.x, hi.y, hi.z));
     }
+    add(model.frame.z_scale == 1 || z_scale_given, "z-scale", model.frame.z_scale);
     if (!model.faults.empty()) {
         const double spacing = model.fault_options.spacing > 0 ? model.fault_options.spacing : model.criteria.l_min;
         add(!a.fault_spacing.empty() && a.fault_spacing != "auto", "fault-spacing", spacing);
@@ -74,7 +75,7 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     model.estimator = fitted;
 
     record.fallbacks = counters->fallbacks;
-    record.defaults = chosen_defaults(arguments, model);
+    record.defaults = chosen_defaults(arguments, !site_arguments.z_scale.empty(), model);
     record.seconds.insert(record.report.seconds.begin(), record.report.seconds.end());
     auto& all = record.diagnostics;
     const auto& built = record.report.diagnostics;

@@ -112,7 +112,9 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
              {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
              {{"z-scale"},
               "K",
-              "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged. Default 1",
+              "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged; by default 1, "
+              "more for "
+              "data flatter than 10 : 1",
               &a.z_scale},
              {{"composite"}, "LENGTH", "bring logs to intervals of this length before all else", &a.composite},
              {{"layer"}, "NAME", "layer of a single input", &a.layer},
@@ -195,10 +197,12 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     if (!a.composite.empty()) {
         composite_length(a.composite, 1.0);
     }
-    if (!(a.z_scale >= 1e-3 && a.z_scale <= 1e3)) {
-        throw UsageError(fmt::format("--z-scale: {} is not between 0.001 and 1000", a.z_scale));
+    if (!a.z_scale.empty()) {
+        inputs.z_scale = parse_number(a.z_scale).value_or(0);
+        if (!(inputs.z_scale >= 1e-3 && inputs.z_scale <= 1e3)) {
+            throw UsageError(fmt::format("--z-scale: '{}' is not a number between 0.001 and 1000", a.z_scale));
+        }
     }
-    inputs.z_scale = a.z_scale;
     inputs.strict = strict;
     return inputs;
 }

@@ -31,7 +31,7 @@ struct SiteArguments {
     std::string azimuth = "grid";
     std::string depth_unit;
     std::string composite;
-    double z_scale = 1;
+    std::string z_scale;  ///< empty: chosen for flat data
     std::string layer;
     std::string where;
     std::string sql;

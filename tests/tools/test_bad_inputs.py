@@ -91,7 +91,8 @@ class Running(Case):
         self.fail_with(RUNNING, "convert", "--samples", "s.csv", "-s_srs", "EPSG:3067", "--overwrite", "d.csv", saying="d.csv")
 
     def test_a_bound_exceeded(self):
-        self.fail_with(RUNNING, "convert", *twin_inputs(), "--max-vertices", "100", "o.csv", saying="100")
+        self.fail_with(USAGE, "convert", *twin_inputs(), "--max-vertices", "100", "o.csv", saying="--lmax of")
+        self.fail_with(RUNNING, "convert", *twin_inputs(), "--max-vertices", "1000", "o.csv", saying="1000")
 
     def test_standard_output_that_is_full(self):
         self.write("s.csv", GRID)

@@ -8,6 +8,9 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "io/clipped_parts.hpp"
+#include "tess/tetrahedron.hpp"
+
 namespace terratet {
 namespace {
 
@@ -32,7 +35,7 @@ double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 class Clipper {
   public:
-    explicit Clipper(const ModelView& view) : view_(view) {
+    Clipper(const ModelView& view, const Progress& progress) : view_(view), progress_(progress) {
         const Box3& extent = view.model.domain.extent;
         for (int axis = 0; axis < 3; ++axis) {
             planes_.push_back({axis, extent.lo[axis], 1});
@@ -42,16 +45,23 @@ class Clipper {
         points_ = view.mesh.points;
     }
 
-    ClippedMesh run() {
+    ClippedMesh run(bool mended) {
         const std::size_t n = view_.mesh.cells.size();
         fate_.assign(n, Fate::dropped);
         first_piece_.resize(n);
         for (std::size_t c = 0; c < n; ++c) {
             clip(static_cast<std::uint32_t>(c));
         }
+        keep_to_own_sides(view_.model, points_, result_.cuts);
+        for (const std::uint32_t parent : result_.parent) {
+            result_.changed.push_back(fate_[parent] == Fate::cut ? 1 : 0);
+        }
         compact();
         find_facets();
         label_regions();
+        if (mended && !result_.cuts.empty()) {
+            mend();
+        }
         return std::move(result_);
     }
 
@@ -87,6 +97,9 @@ class Clipper {
         std::size_t n_out = 0;
         for (const std::uint32_t v : piece) {
             const double d = plane.distance(points_[v]);
+            if (std::abs(d) <= on_plane_ && v >= view_.model.vertices.size()) {
+                points_[v][plane.axis] = plane.position;  // a cut that met the box's edge
+            }
             (std::abs(d) <= on_plane_ ? on[n_on++] : d > 0 ? in[n_in++] : out[n_out++]) = v;
         }
         if (n_in == 0) {
@@ -97,6 +110,12 @@ class Clipper {
             return false;
         }
         const auto on_edge = [&](std::size_t i, std::size_t o) { return cut_point(in[i], out[o], plane); };
+        // What is inside, on and outside in turn: turned when this order of the piece's corners is.
+        Tet order{};
+        std::copy_n(in.begin(), n_in, order.begin());
+        std::copy_n(on.begin(), n_on, order.begin() + n_in);
+        std::copy_n(out.begin(), n_out, order.begin() + n_in + n_on);
+        const bool turned = is_odd_order(piece, order);
         if (n_in == 1) {
             Tet tip{in[0]};
             std::size_t corner = 1;
@@ -106,13 +125,13 @@ class Clipper {
             for (std::size_t k = 0; k < n_out; ++k) {
                 tip[corner++] = on_edge(0, k);
             }
-            add(tip);
+            add(tip, turned);
         } else if (n_in == 2 && n_out == 2) {
-            add_prism({in[0], on_edge(0, 0), on_edge(0, 1)}, {in[1], on_edge(1, 0), on_edge(1, 1)});
+            add_prism({in[0], on_edge(0, 0), on_edge(0, 1)}, {in[1], on_edge(1, 0), on_edge(1, 1)}, turned);
         } else if (n_in == 2) {
-            add_pyramid(on[0], {in[0], in[1], on_edge(1, 0), on_edge(0, 0)});
+            add_pyramid(on[0], {in[0], in[1], on_edge(1, 0), on_edge(0, 0)}, turned);
         } else {
-            add_prism({in[0], in[1], in[2]}, {on_edge(0, 0), on_edge(1, 0), on_edge(2, 0)});
+            add_prism({in[0], in[1], in[2]}, {on_edge(0, 0), on_edge(1, 0), on_edge(2, 0)}, turned);
         }
         return true;
     }
@@ -133,14 +152,12 @@ class Clipper {
         return static_cast<std::uint32_t>(entry->second);
     }
 
-    void add(Tet tet) {
-        const double volume = six_volumes(points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]);
-        if (volume < 0) {
+    /// The orientation follows from the piece's, not from a volume that may be no more than rounding.
+    void add(Tet tet, bool turned) {
+        if (turned) {
             std::swap(tet[2], tet[3]);
         }
-        if (volume != 0) {
-            next_.push_back(tet);
-        }
+        next_.push_back(tet);
     }
 
     /// An order of places that is the same on both sides of a collapsed fault.
@@ -154,23 +171,24 @@ class Clipper {
     }
 
     /// Corners of the quadrilateral in order round it.
-    void add_pyramid(std::uint32_t apex, const std::array<std::uint32_t, 4>& quad) {
+    void add_pyramid(std::uint32_t apex, const std::array<std::uint32_t, 4>& quad, bool turned) {
         const auto first = static_cast<std::size_t>(smallest(quad) - quad.begin());
         const auto q = [&](std::size_t k) { return quad[(first + k) % 4]; };
-        add({apex, q(0), q(1), q(2)});
-        add({apex, q(0), q(2), q(3)});
+        add({apex, q(0), q(1), q(2)}, turned);
+        add({apex, q(0), q(2), q(3)}, turned);
     }
 
     /// Edges lead from each corner of one triangle to the same one of the other.
-    void add_prism(std::array<std::uint32_t, 3> a, std::array<std::uint32_t, 3> b) {
+    void add_prism(std::array<std::uint32_t, 3> a, std::array<std::uint32_t, 3> b, bool turned) {
         if (before(*smallest(b), *smallest(a))) {
             std::swap(a, b);
+            turned = !turned;
         }
         const auto first = static_cast<std::size_t>(smallest(a) - a.begin());
         const std::size_t second = (first + 1) % 3;
         const std::size_t third = (first + 2) % 3;
-        add({a[first], b[first], b[second], b[third]});
-        add_pyramid(a[first], {a[second], a[third], b[third], b[second]});
+        add({a[first], b[first], b[second], b[third]}, turned);
+        add_pyramid(a[first], {a[second], a[third], b[third], b[second]}, turned);
     }
 
     [[nodiscard]] bool is_gap(std::size_t cell) const { return view_.cells.fault[result_.parent[cell]] >= 0; }
@@ -191,6 +209,17 @@ class Clipper {
                 return std::abs(plane.distance(result_.points[v])) <= on_plane_;
             });
         });
+    }
+
+    void mend() {
+        mend_clipped(view_, result_, progress_);
+        std::ranges::fill(fate_, Fate::dropped);
+        for (std::size_t c = result_.cells.size(); c-- > 0;) {
+            fate_[result_.parent[c]] = result_.changed[c] != 0 ? Fate::cut : Fate::whole;
+            first_piece_[result_.parent[c]] = static_cast<std::uint32_t>(c);
+        }
+        result_.facets.clear();
+        find_facets();
     }
 
     /// Between whole cells by the tessellation's own neighbours; of pieces, few of all, by sorting.
@@ -263,28 +292,14 @@ class Clipper {
 
     /// Leaves out the vertices outside and the cuts that later cuts took the place of.
     void compact() {
-        constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
-        std::vector<std::uint32_t> index(points_.size(), unused);
-        for (const Tet& cell : result_.cells) {
-            for (const std::uint32_t v : cell) {
-                index[v] = 0;
-            }
-        }
-        for (std::uint32_t place = 0; place < points_.size(); ++place) {
-            if (index[place] != unused) {
-                index[place] = static_cast<std::uint32_t>(result_.points.size());
-                result_.points.push_back(points_[place]);
-                result_.place.push_back(place);
-            }
-        }
-        for (Tet& cell : result_.cells) {
-            for (std::uint32_t& v : cell) {
-                v = index[v];
-            }
-        }
+        result_.points = std::move(points_);
+        result_.place.resize(result_.points.size());
+        std::iota(result_.place.begin(), result_.place.end(), 0U);
+        drop_unused_points(result_);
     }
 
     const ModelView& view_;
+    const Progress& progress_;
     std::vector<Plane> planes_;
     double on_plane_ = 0;
     std::vector<Vec3> points_;
@@ -296,71 +311,10 @@ class Clipper {
     ClippedMesh result_;
 };
 
-/// Vertices of all places. A cut keeps the role and side that its ends share; one across a fault takes its nearer
-/// end's.
-std::vector<Vertex> place_vertices(const ClippedMesh& mesh, const Model& model) {
-    std::vector<Vertex> vertices = model.vertices;
-    for (const auto& [a, b, t] : mesh.cuts) {
-        const Vertex& near = vertices[t <= 0.5 ? a : b];
-        const Vertex& far = vertices[t <= 0.5 ? b : a];
-        const bool along = near.side != 0 && far.side != 0 && near.owner == far.owner;  // both of one fault
-        Vertex cut;
-        cut.role = Role::domain;
-        cut.owner = along ? near.owner : -1;
-        cut.side = along ? near.side : std::int8_t{0};
-        vertices.push_back(cut);
-    }
-    return vertices;
-}
-
-template <class Mix>
-std::vector<double> at_points(const ClippedMesh& mesh, const Model& model, std::vector<double> values, Mix&& mix) {
-    const std::vector<Vertex> vertices = place_vertices(mesh, model);
-    for (const auto& [a, b, t] : mesh.cuts) {
-        const bool across = vertices[a].side * vertices[b].side < 0 && vertices[a].owner == vertices[b].owner;
-        values.push_back(across ? values[t <= 0.5 ? a : b] : mix(values[a], values[b], t));
-    }
-    std::vector<double> result;
-    result.reserve(mesh.place.size());
-    for (const auto place : mesh.place) {
-        result.push_back(values[place]);
-    }
-    return result;
-}
-
-double linear_mix(double a, double b, double t) {
-    return a + t * (b - a);
-}
-
 }  // namespace
 
-std::vector<double> ClippedMesh::values(const Model& model, std::size_t property) const {
-    const Property& p = model.properties[property];
-    return at_points(*this, model, model.vertex_values.values[property], [&](double a, double b, double t) {
-        if (a == b || p.kind == Kind::categorical) {
-            return t <= 0.5 ? a : b;
-        }
-        return from_scale(p, linear_mix(to_scale(p, a), to_scale(p, b), t));
-    });
-}
-
-std::vector<double> ClippedMesh::extrapolation(const Model& model) const {
-    return at_points(*this, model, model.vertex_values.extrapolation, linear_mix);
-}
-
-std::vector<Vertex> ClippedMesh::vertices(const Model& model) const {
-    const std::vector<Vertex> all = place_vertices(*this, model);
-    std::vector<Vertex> result;
-    result.reserve(place.size());
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        result.push_back(all[place[i]]);
-        result.back().position = points[i];
-    }
-    return result;
-}
-
 std::vector<double> region_volumes(const ModelView& view) {
-    const ClippedMesh mesh = clip_to_extent(view);
+    const ClippedMesh mesh = clip_to_extent(view, ClippedCells::as_cut);
     std::vector<double> volumes(static_cast<std::size_t>(view.cells.region_count), 0);
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
         if (mesh.region[c] >= 0) {
@@ -375,8 +329,8 @@ std::vector<double> region_volumes(const ModelView& view) {
     return volumes;
 }
 
-ClippedMesh clip_to_extent(const ModelView& view) {
-    return Clipper(view).run();
+ClippedMesh clip_to_extent(const ModelView& view, ClippedCells cells, const Progress& progress) {
+    return Clipper(view, progress).run(cells == ClippedCells::mended);
 }
 
 }  // namespace terratet

@@ -5,24 +5,32 @@
 /// Private to the writers: the tessellation cut exactly at the extent's six planes. Cells that reach beyond are cut
 /// into tetrahedra, conforming: a quadrilateral shared by two pieces is split along the diagonal from its smallest
 /// point (by coordinates, so that the twin facets of a collapsed fault are cut alike), which also settles every prism
-/// (Dompierre et al. 1999, How to subdivide pyramids, prisms and hexahedra into tetrahedra). The volumes of all pieces
-/// add up to that of the extent within rounding.
+/// (Dompierre et al. 1999, How to subdivide pyramids, prisms and hexahedra into tetrahedra). Cells are cut anywhere,
+/// so that many pieces are needles and slivers; these are mended (tess/cut_mending.hpp): points near a plane go onto
+/// it, cells are turned and points moved until none is sharp that need not be. The volumes add up to that of the extent
+/// within rounding.
 
 #include <cstdint>
 #include <vector>
 
 #include "io/export.hpp"
+#include "tess/blend.hpp"
 
 namespace terratet {
 
 struct ClippedMesh {
-    /// Places are the model's vertices followed by the cuts.
+    /// Places are the model's vertices, followed by the cuts and by the points that mending moved.
     using Place = std::uint32_t;
 
     /// A place on the edge between two earlier ones.
     struct Cut {
         Place a, b;
-        double t;  ///< 0 at a, 1 at b
+        double t;  ///< of its value: 0 as at a, 1 as at b; just these where the other end is across a fault
+    };
+    /// A place in the tessellation's linear field.
+    struct Moved {
+        Blend blend;   ///< of the tessellation's vertices
+        bool on_face;  ///< of the extent
     };
     /// A facet as seen from outside `cell`.
     struct Facet {
@@ -35,22 +43,34 @@ struct ClippedMesh {
     std::vector<Vec3> points;                         ///< frame-local, each used by a cell
     std::vector<Place> place;                         ///< of each point
     std::vector<Cut> cuts;                            ///< place model.vertices.size() + i is cuts[i]
+    std::vector<Moved> moved;                         ///< place model.vertices.size() + cuts.size() + i is moved[i]
     std::vector<std::array<std::uint32_t, 4>> cells;  ///< indices into points, positively oriented
-    std::vector<std::uint32_t> parent;                ///< of each cell, the tessellation's cell; ascending
+    std::vector<std::uint32_t> parent;                ///< of each cell, the tessellation's that it is a part of, or
+                                                      ///< was made of and others; ascending
+    std::vector<char> changed;                        ///< of each cell: another than its parent
     std::vector<std::int32_t> region;  ///< of each cell; −1 in gap cells. Where a cell's centroid lies outside,
                                        ///< that of the nearest it hangs together with
     std::vector<Facet> facets;         ///< on the extent's faces, between gap and other cells, and between
                                        ///< pieces; each once
 
-    /// A property's values at the points, in measured units. Cuts are interpolated linearly in the property's scale; a
-    /// category, and an edge across a fault, take the nearer end's value.
+    /// A property's values at the points, in measured units, linear between the tessellation's vertices in the
+    /// property's scale; a category is the nearest's. Vertices across a fault do not count.
     [[nodiscard]] std::vector<double> values(const Model& model, std::size_t property) const;
     [[nodiscard]] std::vector<double> extrapolation(const Model& model) const;
     /// The vertex that a point is; for a cut one on the domain's boundary, with the side its ends have in common.
     [[nodiscard]] std::vector<Vertex> vertices(const Model& model) const;
 };
 
+enum class ClippedCells {
+    as_cut,  ///< where shapes do not matter: volumes, surfaces
+    mended,
+};
+
 /// O(cells).
-ClippedMesh clip_to_extent(const ModelView& view);
+ClippedMesh clip_to_extent(const ModelView& view, ClippedCells cells = ClippedCells::mended,
+                           const Progress& progress = {});
+
+/// O(cells).
+ClippedShapes clipped_shapes(const ModelView& view, const ClippedMesh& mesh);
 
 }  // namespace terratet

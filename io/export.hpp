@@ -13,6 +13,7 @@
 /// | .csv | vertices with values | write_csv |
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,27 @@ struct ExportOptions {
     Progress progress;
 };
 
+/// Shapes of the cells of a clipped mesh but those in gaps, in the frame's unit: with its z-scale.
+struct ClippedShapes {
+    std::size_t cells = 0;
+    double dihedral_min_deg = 0;
+    double dihedral_p1_deg = 0;
+    double edge_min = 0;
+    std::size_t below_1_deg = 0;
+    std::size_t below_10_deg = 0;
+    std::size_t short_edges = 0;  ///< cells with one below a tenth of l_min
+    /// Of those below 10° or with a short edge: cells at a kept sample, else at a fault, the ground or a wall, whose
+    /// points stay where they are; else those that the tessellation had; others.
+    std::size_t at_sample = 0;
+    std::size_t at_fault = 0;
+    std::size_t as_tessellated = 0;
+    std::size_t other = 0;
+};
+
 struct OutputRecord {
     std::string path;
     std::uint64_t bytes = 0;
+    std::optional<ClippedShapes> clipped = {};  ///< of a clipped VTU
 };
 
 /// Dispatches by extension or options.format. Throws UsageError for an unknown one (lists those there are).

@@ -97,7 +97,7 @@ int box_face(const Vec3& normal) {
 }  // namespace
 
 std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneFrame& frame) {
-    const ClippedMesh clipped = clip_to_extent(view);
+    const ClippedMesh clipped = clip_to_extent(view, ClippedCells::as_cut);
     const auto values = all_values(view, clipped);
 
     PartBuilder boundary("domain boundary", clipped, frame, values);

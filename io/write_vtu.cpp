@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <variant>
 
 #include "io/clipped_mesh.hpp"
@@ -14,6 +15,7 @@
 #include "io/export.hpp"
 #include "io/role_names.hpp"
 #include "io/vtk_xml.hpp"
+#include "tess/quality.hpp"
 
 namespace terratet {
 namespace {
@@ -27,12 +29,16 @@ struct Contents {
     std::vector<Vec3> points;  ///< true coordinates
     std::vector<std::array<std::uint32_t, 4>> cells;
     std::vector<std::uint32_t> parent;  ///< of each cell, the tessellation's
+    std::vector<float> radius_edge;
+    std::vector<float> aspect;
+    std::vector<float> dihedral;
     std::vector<std::int32_t> region;
     std::vector<std::uint8_t> in_extent;
     std::vector<Vertex> vertices;
     std::vector<std::int64_t> ids;  ///< −1 for points that are no vertices
     std::vector<std::vector<double>> values;
     std::vector<double> extrapolation;
+    std::optional<ClippedShapes> shapes;  ///< when clipped
 };
 
 Contents whole(const ModelView& view) {
@@ -41,6 +47,9 @@ Contents whole(const ModelView& view) {
     contents.cells = view.mesh.cells;
     contents.parent.resize(contents.cells.size());
     std::iota(contents.parent.begin(), contents.parent.end(), 0U);
+    contents.radius_edge = view.cells.radius_edge;
+    contents.aspect = view.cells.aspect;
+    contents.dihedral = view.cells.dihedral_min_deg;
     contents.region = view.cells.region;
     contents.in_extent = view.cells.in_extent;
     contents.vertices = view.model.vertices;
@@ -52,8 +61,32 @@ Contents whole(const ModelView& view) {
     return contents;
 }
 
-Contents clipped(const ModelView& view) {
-    ClippedMesh mesh = clip_to_extent(view);
+/// The column of the parents' table that each cell inherits.
+template <class To, class From>
+std::vector<To> inherited(const std::vector<From>& column, const std::vector<std::uint32_t>& parent) {
+    std::vector<To> result(parent.size());
+    for (std::size_t c = 0; c < parent.size(); ++c) {
+        result[c] = static_cast<To>(column[parent[c]]);
+    }
+    return result;
+}
+
+/// Of cells that are not the tessellation's own.
+void measure_changed(const ClippedMesh& mesh, Contents& contents) {
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        if (mesh.changed[c] != 0) {
+            const auto& v = mesh.cells[c];
+            const CellQuality quality =
+                cell_quality({mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
+            contents.radius_edge[c] = static_cast<float>(quality.radius_edge);
+            contents.aspect[c] = static_cast<float>(quality.aspect);
+            contents.dihedral[c] = static_cast<float>(quality.dihedral_min_deg);
+        }
+    }
+}
+
+Contents clipped(const ModelView& view, const Progress& progress) {
+    ClippedMesh mesh = clip_to_extent(view, ClippedCells::mended, progress);
     Contents contents;
     contents.vertices = mesh.vertices(view.model);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -64,6 +97,11 @@ Contents clipped(const ModelView& view) {
         contents.values.push_back(mesh.values(view.model, p));
     }
     contents.extrapolation = mesh.extrapolation(view.model);
+    contents.radius_edge = inherited<float>(view.cells.radius_edge, mesh.parent);
+    contents.aspect = inherited<float>(view.cells.aspect, mesh.parent);
+    contents.dihedral = inherited<float>(view.cells.dihedral_min_deg, mesh.parent);
+    measure_changed(mesh, contents);
+    contents.shapes = clipped_shapes(view, mesh);
     contents.points = std::move(mesh.points);
     contents.cells = std::move(mesh.cells);
     contents.parent = std::move(mesh.parent);
@@ -98,16 +136,6 @@ class Indices {
     }
     std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>> values_;
 };
-
-/// The column of the parents' table that each cell inherits.
-template <class To, class From>
-std::vector<To> inherited(const std::vector<From>& column, const std::vector<std::uint32_t>& parent) {
-    std::vector<To> result(parent.size());
-    for (std::size_t c = 0; c < parent.size(); ++c) {
-        result[c] = static_cast<To>(column[parent[c]]);
-    }
-    return result;
-}
 
 template <class To, class Member>
 std::vector<To> column_of(const std::vector<Vertex>& vertices, Member member) {
@@ -164,7 +192,7 @@ std::vector<VtkStrings> field_data(const Model& model, const CellTable& cells, c
 OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options) {
     OutputFile file(path, options.overwrite);
     const Model& model = view.model;
-    Contents contents = options.clip ? clipped(view) : whole(view);
+    Contents contents = options.clip ? clipped(view, options.progress) : whole(view);
     for (Vec3& point : contents.points) {
         point = model.frame.to_world(point);
     }
@@ -209,20 +237,17 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     piece.active_scalars = names.empty() ? "" : names[0];
 
     const auto fault = inherited<std::int32_t>(view.cells.fault, contents.parent);
-    const auto radius_edge = inherited<float>(view.cells.radius_edge, contents.parent);
-    const auto aspect = inherited<float>(view.cells.aspect, contents.parent);
-    const auto dihedral = inherited<float>(view.cells.dihedral_min_deg, contents.parent);
     const auto reason = inherited<std::uint8_t>(view.cells.reason, contents.parent);
     piece.cell_data = {vtk_array("MaterialIDs", contents.region),
                        vtk_array("fault", fault),
                        vtk_array("in_extent", contents.in_extent),
-                       vtk_array("radius_edge", radius_edge),
-                       vtk_array("aspect", aspect),
-                       vtk_array("dihedral", dihedral),
+                       vtk_array("radius_edge", contents.radius_edge),
+                       vtk_array("aspect", contents.aspect),
+                       vtk_array("dihedral", contents.dihedral),
                        vtk_array("reason", reason)};
     piece.field_data = field_data(model, view.cells, names);
     write_unstructured_grid(piece, options.compress, file, options.progress);
-    return {path, file.commit()};
+    return {path, file.commit(), contents.shapes};
 }
 
 }  // namespace terratet

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tess/collapse_image.hpp"
+#include "tess/collapse_mending.hpp"
 #include "tess/model_bounds.hpp"
 #include "tess/node_splitter.hpp"
 #include "tess/quality.hpp"
@@ -217,6 +218,7 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     result.mesh.neighbours = std::move(split.neighbours);
     result.cells.region = std::move(split.regions);
     fill_cells(cells, image, std::move(states), result);
+    mend_collapsed(result);
 
     CollapseReport& report = result.report;
     report.dropped_cells =

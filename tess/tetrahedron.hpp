@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "tess/geometry.hpp"
 
@@ -43,6 +45,19 @@ inline std::optional<EdgeCrossing> edge_crossing(const std::array<Vec3, 4>& p) {
     const Vec3 first = p[0] + s * u;
     const Vec3 second = p[2] + t * w;
     return EdgeCrossing{0.5 * (p[0] + s * u + p[2] + t * w), distance(first, second)};
+}
+
+/// Does it take an odd number of swaps to bring the corners into the other order?
+inline bool is_odd_order(std::array<std::uint32_t, 4> corners, const std::array<std::uint32_t, 4>& order) {
+    bool odd = false;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(corners, order[k]) - corners.begin());
+        if (at != k) {
+            std::swap(corners[k], corners[at]);
+            odd = !odd;
+        }
+    }
+    return odd;
 }
 
 /// Over the largest facet; negative when it is turned inside out.

@@ -106,9 +106,25 @@ MeshField adaptive(const AnalyticSite& site, BuildReport& report) {
             return batch;
         };
     };
-    Model model = build(site.site, site.options, factory, report);
-    MeshField field{tessellate(model).mesh(), std::move(model.vertices), std::move(model.vertex_values.values[0])};
-    return field;
+    return field_of(build(site.site, site.options, factory, report));
+}
+
+MeshField field_of(const Model& model) {
+    return {tessellate(model).mesh(), model.vertices, model.vertex_values.values[0]};
+}
+
+std::vector<Vec3> nodes(const GridField& grid) {
+    std::vector<Vec3> result;
+    const Vec3 size = grid.box.size();
+    for (int i = 0; i < grid.nodes[0]; ++i) {
+        for (int j = 0; j < grid.nodes[1]; ++j) {
+            for (int k = 0; k < grid.nodes[2]; ++k) {
+                result.push_back(grid.box.lo + Vec3{size.x * i / (grid.nodes[0] - 1), size.y * j / (grid.nodes[1] - 1),
+                                                    size.z * k / (grid.nodes[2] - 1)});
+            }
+        }
+    }
+    return result;
 }
 
 GridField uniform_grid(const AnalyticSite& site, std::size_t count) {
@@ -127,14 +143,8 @@ GridField uniform_grid(const AnalyticSite& site, std::size_t count) {
         step *= 1.001;
     }
     grid.nodes = nodes_at(step);
-    for (int i = 0; i < grid.nodes[0]; ++i) {
-        for (int j = 0; j < grid.nodes[1]; ++j) {
-            for (int k = 0; k < grid.nodes[2]; ++k) {
-                const Vec3 off{size.x * i / (grid.nodes[0] - 1), size.y * j / (grid.nodes[1] - 1),
-                               size.z * k / (grid.nodes[2] - 1)};
-                grid.values.push_back(site.field(grid.box.lo + off));
-            }
-        }
+    for (const Vec3& p : nodes(grid)) {
+        grid.values.push_back(site.field(p));
     }
     return grid;
 }

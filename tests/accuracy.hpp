@@ -46,12 +46,18 @@ struct GridField {
 /// The adaptive tessellation: values from the formula, at samples, seeds and inserted vertices alike.
 MeshField adaptive(const AnalyticSite& site, BuildReport& report);
 
+/// Its vertices in a row.
+MeshField field_of(const Model& model);
+
 /// Nearly equal cells, at most `count` values: a cubic grid.
 GridField uniform_grid(const AnalyticSite& site, std::size_t count);
 
 /// The Delaunay tessellation of a body-centred cubic lattice, the most uniform tetrahedra that fill space, closed by a
 /// row of vertices on each face of the box; at most `count` vertices.
 MeshField uniform_mesh(const AnalyticSite& site, std::size_t count);
+
+/// Where a grid's values are, in their order.
+std::vector<Vec3> nodes(const GridField& grid);
 
 /// `count` places of the extent: Roberts' quasi-random sequence R3, in an order in which consecutive ones are near.
 std::vector<Vec3> probes(const Box3& extent, std::size_t count);

@@ -210,6 +210,19 @@ Json places_json(const std::vector<Vec3>& places, const Frame& frame) {
     return list;
 }
 
+Json clipped_json(const ClippedShapes& shapes) {
+    return {{"cells", shapes.cells},
+            {"dihedral_deg", {{"min", shapes.dihedral_min_deg}, {"p1", shapes.dihedral_p1_deg}}},
+            {"edge_min", shapes.edge_min},
+            {"below_1_deg", shapes.below_1_deg},
+            {"below_10_deg", shapes.below_10_deg},
+            {"short_edges", shapes.short_edges},
+            {"at_samples", shapes.at_sample},
+            {"at_faults", shapes.at_fault},
+            {"as_tessellated", shapes.as_tessellated},
+            {"other", shapes.other}};
+}
+
 Json collapse_json(const CollapseReport& collapse, const Frame& frame) {
     return {{"dropped_cells", collapse.dropped_cells},
             {"mirrored_facets", collapse.conformity.mirrored_facets},
@@ -263,6 +276,9 @@ std::string report_text(const RunRecord& record) {
     report["outputs"] = Json::array();
     for (const auto& output : record.written.outputs) {
         report["outputs"].push_back({{"path", output.path}, {"bytes", output.bytes}});
+        if (output.clipped) {
+            report["outputs"].back()["clipped"] = clipped_json(*output.clipped);
+        }
     }
     if (record.written.collapse) {
         report["collapse"] = collapse_json(*record.written.collapse, frame);

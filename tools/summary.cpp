@@ -17,6 +17,28 @@ std::string line(const char* what, const std::string& text) {
     return fmt::format("{:10}{}\n", what, wrapped(printable(text), 10, 10, 100));
 }
 
+/// What of a clipped mesh is worse than it should be, and why.
+std::string clipped_text(const ClippedShapes& shapes) {
+    std::string text = fmt::format("cut at the extent: {}, dihedral angles from {:.1f}°, 1 % below {:.1f}°",
+                                   counted(shapes.cells, "cell"), shapes.dihedral_min_deg, shapes.dihedral_p1_deg);
+    if (shapes.below_10_deg + shapes.short_edges == 0) {
+        return text;
+    }
+    text += fmt::format("; {} below 1°, {} below 10°, {} with an edge below --lmin/10:", grouped(shapes.below_1_deg),
+                        grouped(shapes.below_10_deg), grouped(shapes.short_edges));
+    const char* separator = " ";
+    for (const auto& [count, where] : {std::pair{shapes.at_sample, "at samples"},
+                                       {shapes.at_fault, "at faults, ground or walls"},
+                                       {shapes.as_tessellated, "as in the model"},
+                                       {shapes.other, "elsewhere"}}) {
+        if (count > 0) {
+            text += fmt::format("{}{} {}", separator, grouped(count), where);
+            separator = ", ";
+        }
+    }
+    return text;
+}
+
 std::string input_lines(const BuildRecord& build) {
     std::string out =
         line("Read", fmt::format("{}, {}, {}", counted(build.counts.boreholes, "borehole"),
@@ -132,6 +154,9 @@ std::string summary_text(const RunRecord& record) {
     }
     for (const auto& output : record.written.outputs) {
         out += line("Wrote", fmt::format("{} ({})", output.path, byte_size(output.bytes)));
+        if (output.clipped) {
+            out += line("", clipped_text(*output.clipped));
+        }
     }
     return out + fmt::format("{:10}{:.2f} s", "Time", record.total_seconds);
 }

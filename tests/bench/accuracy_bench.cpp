@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What adaptivity buys (docs/accuracy.md): errors of the adaptive tessellation's piecewise linear field against a
-/// uniform grid with as many values and a uniform tetrahedral mesh with as many vertices, for three analytic fields.
+/// uniform grid with as many values and a uniform tetrahedral mesh with as many vertices, for three analytic fields:
+/// with the formula's value at each vertex, and with values that the default estimator makes of the samples.
 ///
 ///   accuracy_bench [--insertion-only] [--scale S=1] [--places N=1000000] [--section FOLDER]
 ///
@@ -14,7 +15,7 @@
 #include <fstream>
 
 #include "tess/error.hpp"
-#include "tests/accuracy.hpp"
+#include "tests/estimated_accuracy.hpp"
 #include "timing.hpp"
 
 using namespace terratet;
@@ -90,26 +91,49 @@ void write_section(const std::string& stem, const AnalyticSite& site, const Comp
     }
 }
 
+void print_row(const std::string& name, const AnalyticSite& site, const Comparison& all, std::size_t count,
+               double seconds) {
+    const auto places = probes(site.options.extent, count);
+    const double own = root_mean_square(errors(all.own, site, places));
+    const double grid = root_mean_square(errors(all.grid, site, places));
+    const double mesh = root_mean_square(errors(all.mesh, site, places));
+    std::printf("| %s | %zu | %.5f | %.5f (%zu values) | %.5f (%zu vertices) | %.1f | %.1f | %.1f |\n", name.c_str(),
+                all.own.values.size(), own, grid, all.grid.values.size(), mesh, all.mesh.values.size(), grid / own,
+                mesh / own, seconds);
+    std::fflush(stdout);
+}
+
 void compare(const AnalyticSite& site, const std::string& stem, std::size_t count) {
     BuildReport report;
     Comparison all;
     const double start = bench::wall_s();
     all.own = adaptive(site, report);
     const double seconds = bench::wall_s() - start;
-    const std::size_t values = all.own.values.size();
-    all.grid = uniform_grid(site, values);
-    all.mesh = uniform_mesh(site, values);
-    const auto places = probes(site.options.extent, count);
-    const double own = root_mean_square(errors(all.own, site, places));
-    const double grid = root_mean_square(errors(all.grid, site, places));
-    const double mesh = root_mean_square(errors(all.mesh, site, places));
-    std::printf("| %s | %zu | %.5f | %.5f (%zu values) | %.5f (%zu vertices) | %.1f | %.1f | %.1f |\n",
-                site.name.c_str(), values, own, grid, all.grid.values.size(), mesh, all.mesh.values.size(), grid / own,
-                mesh / own, seconds);
-    std::fflush(stdout);
+    all.grid = uniform_grid(site, all.own.values.size());
+    all.mesh = uniform_mesh(site, all.own.values.size());
+    print_row(site.name, site, all, count, seconds);
     if (!stem.empty()) {
         write_section(stem, site, all);
     }
+}
+
+/// As compare(), with estimated values; and the error of the estimator itself, which no mesh can undercut for long.
+void compare_estimated(const AnalyticSite& site, std::size_t count) {
+    const double start = bench::wall_s();
+    const EstimatedSite built(site);
+    const double seconds = bench::wall_s() - start;
+    Comparison all;
+    all.own = field_of(built.model());
+    all.grid = built.estimated(uniform_grid(site, all.own.values.size()));
+    all.mesh = built.estimated(uniform_mesh(site, all.own.values.size()));
+    print_row(site.name + ", estimated", site, all, count, seconds);
+    const auto places = probes(site.options.extent, count / 10);
+    std::vector<double> off = built.estimates(places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        off[i] -= site.field(places[i]);
+    }
+    std::printf("| %s, the estimator at the places | | %.5f | | | | | |\n", site.name.c_str(), root_mean_square(off));
+    std::fflush(stdout);
 }
 
 }  // namespace
@@ -127,5 +151,6 @@ int main(int argc, char** argv) {
         AnalyticSite site = make(arguments.scale);
         site.options.refine.clean_up = arguments.clean_up;
         compare(site, arguments.folder.empty() ? "" : arguments.folder + "/" + stem, arguments.places);
+        compare_estimated(site, arguments.places);
     }
 }

@@ -3,173 +3,17 @@
 //
 // That VTK reads the files is tested in tests/readers.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <set>
 
 #include "grid_model.hpp"
-#include "io/clipped_mesh.hpp"
+#include "io/export.hpp"
 #include "support.hpp"
 
 using namespace terratet;
 using terratet::testing::GridModel;
-using terratet::testing::Random;
 using terratet::testing::TemporaryFolder;
-
-namespace {
-
-double volume_of(const ClippedMesh& mesh, std::size_t cell) {
-    const auto& [a, b, c, d] = mesh.cells[cell];
-    const auto& p = mesh.points;
-    return dot(cross(p[b] - p[a], p[c] - p[a]), p[d] - p[a]) / 6;
-}
-
-/// A Delaunay tessellation of random points in a box, with the extent somewhere inside it.
-struct RandomModel {
-    Model model;
-    TetMesh mesh;
-    CellTable cells;
-
-    RandomModel(std::uint64_t seed, const Box3& extent) {
-        Random random(seed);
-        model.domain.hull = {{-10, -20, -5}, {110, 120, 60}};
-        model.domain.extent = extent;
-        const Vec3 side = model.domain.hull.size();
-        for (int corner = 0; corner < 8; ++corner) {
-            add(model.domain.hull.lo + Vec3{corner & 1 ? side.x : 0, corner & 2 ? side.y : 0, corner & 4 ? side.z : 0});
-        }
-        for (int i = 0; i < 400; ++i) {
-            add(random.in(model.domain.hull));
-        }
-        // Vertices exactly on the extent's planes, edges and corners too.
-        add(extent.lo);
-        add({extent.lo.x, extent.hi.y, extent.center().z});
-        add({extent.center().x, extent.center().y, extent.hi.z});
-        model.properties.resize(1);
-        model.properties[0].name = "f";
-        model.vertex_values.values.resize(1);
-        for (const Vertex& vertex : model.vertices) {
-            model.vertex_values.values[0].push_back(linear(vertex.position));
-            model.vertex_values.extrapolation.push_back(0);
-        }
-        mesh = tessellate(model).mesh();
-        cells = describe_cells(model, mesh);
-    }
-    static double linear(const Vec3& p) { return 3 + 0.1 * p.x - 0.2 * p.y + 0.05 * p.z; }
-
-  private:
-    void add(const Vec3& p) { model.vertices.push_back({model.vertices.size(), p, Role::inserted, -1, 0}); }
-};
-
-}  // namespace
-
-TEST_CASE("Clipped cells fill the extent exactly, conform, and carry linear values on") {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        const Box3 extent{{0, 0, 0}, {100, 100, 50.0 + static_cast<double>(seed)}};
-        const RandomModel random(seed, extent);
-        const ClippedMesh mesh = clip_to_extent({random.model, random.mesh, random.cells});
-
-        double volume = 0;
-        std::map<std::array<std::uint32_t, 3>, int> facets;
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-            REQUIRE(volume_of(mesh, c) > 0);
-            volume += volume_of(mesh, c);
-            for (std::size_t k = 0; k < 4; ++k) {
-                std::array<std::uint32_t, 3> facet;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    facet[i] = mesh.cells[c][(k + i + 1) % 4];
-                }
-                std::sort(facet.begin(), facet.end());
-                ++facets[facet];
-            }
-        }
-        CHECK(volume == Approx(extent.volume()).epsilon(1e-9));
-
-        std::size_t open = 0;
-        for (const auto& [facet, sides] : facets) {
-            REQUIRE(sides <= 2);
-            if (sides == 1) {
-                bool on_a_face = false;
-                for (int axis = 0; axis < 3; ++axis) {
-                    for (const double face : {extent.lo[axis], extent.hi[axis]}) {
-                        on_a_face |= std::all_of(facet.begin(), facet.end(), [&](std::uint32_t v) {
-                            return std::abs(mesh.points[v][axis] - face) < 1e-9;
-                        });
-                    }
-                }
-                open += on_a_face ? 0 : 1;
-            }
-        }
-        CHECK(open == 0);
-
-        const std::vector<double> values = mesh.values(random.model, 0);
-        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-            REQUIRE(values[i] == Approx(RandomModel::linear(mesh.points[i])).margin(1e-11));
-            REQUIRE(extent.grown(1e-9).contains(mesh.points[i]));
-        }
-    }
-}
-
-TEST_CASE("An extent that is the hull cuts nothing") {
-    GridModel grid;
-    grid.model.domain.extent = grid.model.domain.hull;
-    grid.cells = describe_cells(grid.model, grid.mesh);
-    const ClippedMesh mesh = clip_to_extent({grid.model, grid.mesh, grid.cells});
-    CHECK(mesh.cuts.empty());
-    CHECK(mesh.cells == grid.mesh.cells);
-    CHECK(mesh.region == grid.cells.region);
-}
-
-TEST_CASE("What is connected within the extent is one region, also through cells whose centroid is outside") {
-    const GridModel grid;
-    const ClippedMesh mesh = clip_to_extent({grid.model, grid.mesh, grid.cells});
-    std::set<std::int32_t> west;
-    std::set<std::int32_t> east;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (grid.cells.fault[mesh.parent[c]] >= 0) {
-            CHECK(mesh.region[c] == -1);
-            continue;
-        }
-        Vec3 center;
-        for (const std::uint32_t v : mesh.cells[c]) {
-            center = center + 0.25 * mesh.points[v];
-        }
-        (center.x < grid.fault_x(center.z) ? west : east).insert(mesh.region[c]);
-    }
-    CHECK(west.size() == 1);
-    CHECK(east.size() == 1);
-    CHECK(west != east);
-    CHECK(*west.begin() >= 0);
-    CHECK(*east.begin() >= 0);
-}
-
-TEST_CASE("Cuts across a fault take the nearer end's value, and classes never mix") {
-    const GridModel grid;
-    const ClippedMesh mesh = clip_to_extent({grid.model, grid.mesh, grid.cells});
-    REQUIRE(mesh.cuts.size() > 100);
-    const auto conductivity = mesh.values(grid.model, 0);
-    const auto lithology = mesh.values(grid.model, 2);
-    std::size_t between = 0;
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        const Vec3& p = mesh.points[i];
-        // The blocks differ by two decades; along an edge log10 is linear but for the sine.
-        const auto is_of = [&](bool east) {
-            return std::abs(std::log10(conductivity[i]) - std::log10(grid.conductivity(p, east))) < 0.4 &&
-                   (lithology[i] == 1) == east;
-        };
-        REQUIRE((lithology[i] == 0 || lithology[i] == 1 || lithology[i] == 2));
-        if (std::abs(p.x - grid.fault_x(p.z)) < grid.gap / 2 - 1e-6) {
-            REQUIRE((is_of(false) || is_of(true)));  // between the walls: one or the other
-            ++between;
-        } else {
-            REQUIRE(is_of(p.x > grid.fault_x(p.z)));
-        }
-    }
-    CHECK(between > 10);
-}
 
 TEST_CASE("VTU holds true coordinates bit for bit, little more than its arrays, and escapes names") {
     GridModel grid;

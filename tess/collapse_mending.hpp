@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: the sharp cells of a collapsed mesh get better shapes (cut_mending.hpp).
+
+#include "tess/collapse.hpp"
+
+namespace terratet {
+
+/// Samples, and all nodes on faults, ground and walls stay where they are; other vertices may move, and then have the
+/// linear field's values and new ids, or vanish: nodes that no cell has are left behind. Cells beyond the ground or the
+/// outline and in gaps that are kept stay as they are. O(n log n).
+void mend_collapsed(CollapsedModel& collapsed);
+
+}  // namespace terratet

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "tess/blend.hpp"
@@ -16,15 +17,31 @@ namespace {
 constexpr double wanted_edge = 0.3;  ///< over l_min
 constexpr std::int32_t beyond = -2;
 
+/// Samples stay, and the faults' own points. The seeds of exact faults have done their work: they stand off the faults.
+/// Nodes that were added where edges crossed a fault may give way to others along it.
+std::vector<CutMesh::Hold> holds(const CollapsedModel& collapsed) {
+    std::set<Vec3> of_faults;
+    for (const Fault& fault : collapsed.model.faults) {
+        for (const Surface* part : {&fault.sheet, &fault.margin}) {
+            of_faults.insert(part->vertices.begin(), part->vertices.end());
+        }
+    }
+    const bool exact = collapsed.model.fault_options.mode == FaultMode::exact;
+    std::vector<CutMesh::Hold> result;
+    for (const Vertex& vertex : collapsed.model.vertices) {
+        const bool stays = vertex.role == Role::sample ||
+                           (vertex.role == Role::seed && (!exact || of_faults.contains(vertex.position)));
+        result.push_back(stays ? CutMesh::Hold::fixed : CutMesh::Hold::free);
+    }
+    return result;
+}
+
 CutMesh cut_mesh(const CollapsedModel& collapsed) {
     CutMesh result;
     result.box = collapsed.model.domain.hull;
     result.least_edge = wanted_edge * collapsed.model.criteria.l_min;
     result.points = collapsed.mesh.points;
-    for (const Vertex& vertex : collapsed.model.vertices) {
-        const bool stays = vertex.role == Role::sample || vertex.role == Role::seed;
-        result.hold.push_back(stays ? CutMesh::Hold::fixed : CutMesh::Hold::free);
-    }
+    result.hold = holds(collapsed);
     const CellTable& table = collapsed.cells;
     for (std::uint32_t c = 0; c < collapsed.mesh.cells.size(); ++c) {
         const bool is_beyond = table.beyond[c] != 0;
@@ -87,8 +104,7 @@ void take_points(const CutMesh& mended, const std::vector<std::uint32_t>& near, 
         }
         model.vertex_values.extrapolation[v] =
             blended(blend, before.extrapolation, [](double a, double b, double t) { return std::lerp(a, b, t); });
-        model.vertices[v].position = mended.points[v];
-        model.vertices[v].id = next_id++;
+        model.vertices[v] = {next_id++, mended.points[v], Role::inserted, -1, 0};
     }
     collapsed.mesh.points = mended.points;
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double enough = 0.1;        ///< goodness: 18°
 constexpr double must_have = 0.0302;  ///< goodness: 10°; also cells that were not cut are mended below it
+constexpr double may_have = 0.0076;   ///< goodness: 5°; after points have met, before cells are mended
 constexpr int max_passes = 12;
 
 struct Ranked {
@@ -34,7 +35,7 @@ class Mender {
         stars_.let_edges_count(false);
         const std::size_t changed = sweep(
             least, [&](const CutMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
-            [&](std::uint32_t c) { return best_shortening(stars_, c, must_have); });
+            [&](std::uint32_t c) { return best_shortening(stars_, c, may_have); });
         stars_.let_edges_count(true);
         return changed;
     }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double on_face = 1e-12;    ///< over the box's diagonal
 constexpr double rounding = 1e-13;   ///< of six volumes, over the longest edge's cube
+constexpr double sharpest = 1e-16;   ///< goodness of what has a volume
 constexpr double least_flat = 1e-9;  ///< six volumes over the longest edge's cube: what a cell that is not judged has
 
 }  // namespace
@@ -148,7 +149,7 @@ double CutStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
         return six_volumes > least_flat * cube ? 1 : 0;
     }
     const double sharp = cell_sharpness(p);
-    const double angle = sharp > 1 ? 0 : sharp > 0 ? 1 - sharp : 1;
+    const double angle = sharp > 0 ? std::max(1 - sharp, sharpest) : 1;
     return edges_count_ ? angle * std::min(1.0, shortest / (mesh_.least_edge * mesh_.least_edge)) : angle;
 }
 

@@ -17,18 +17,21 @@ namespace {
 
 const Box3 extent{{0, 0, 0}, {1000, 1000, 500}};
 
-/// Five by five wells, a little out of line, with a sample every two metres from top to bottom.
-void drill(AnalyticSite& site) {
+/// Rows of wells, a little out of line, with a sample every two metres from top to bottom.
+void drill(AnalyticSite& site, int wells) {
     site.site.properties = {parse_property("f")};
     Samples& samples = site.site.samples;
     samples.values.resize(1);
     Random random(3);
-    for (std::int32_t well = 0; well < 25; ++well) {
-        const double row = well / 5;  // NOLINT(bugprone-integer-division)
-        const double column = well % 5;
-        const Vec3 collar{100 + 200 * column + random(-40, 40), 100 + 200 * row + random(-40, 40), extent.hi.z};
+    const double apart = 1000.0 / wells;
+    for (std::int32_t well = 0; well < wells * wells; ++well) {
+        const double row = well / wells;  // NOLINT(bugprone-integer-division)
+        const double column = well % wells;
+        const double off = 0.2 * apart;
+        const Vec3 collar{apart * (column + 0.5) + random(-off, off), apart * (row + 0.5) + random(-off, off),
+                          extent.hi.z};
         Borehole borehole;
-        borehole.id = std::string("W") + static_cast<char>('A' + well);
+        borehole.id = "W" + std::to_string(1000 + well);
         borehole.collar = collar;
         for (double depth = 1; depth < extent.size().z; depth += 2) {
             const Vec3 p = collar - Vec3{0, 0, depth};
@@ -45,9 +48,9 @@ void drill(AnalyticSite& site) {
 }
 
 AnalyticSite site_of(std::string name, std::function<double(const Vec3&)> field, double l_min,
-                     VariationLimits variation) {
+                     VariationLimits variation, int wells) {
     AnalyticSite site{std::move(name), std::move(field), {}, {}};
-    drill(site);
+    drill(site, wells);
     site.options.extent = extent;
     site.options.criteria.l_min = l_min;
     site.options.criteria.l_max = 200;
@@ -61,14 +64,14 @@ double squared(double x) {
 
 }  // namespace
 
-AnalyticSite smooth_trend(double scale) {
+AnalyticSite smooth_trend(double scale, int wells) {
     const auto field = [](const Vec3& p) {
         return std::sin(p.x / 300) * std::cos(p.y / 250) + p.z / 500;  // as wide as the site
     };
-    return site_of("smooth trend", field, 12 * scale, {0, 0.1 * scale});
+    return site_of("smooth trend", field, 12 * scale, {0, 0.1 * scale}, wells);
 }
 
-AnalyticSite thin_layer(double scale) {
+AnalyticSite thin_layer(double scale, int wells) {
     const double thickness = 6 * scale;
     const auto field = [thickness](const Vec3& p) {
         // Dips gently, is folded a little, and pinches out within the site.
@@ -76,10 +79,10 @@ AnalyticSite thin_layer(double scale) {
         const double reach = (squared(p.x - 500) + squared(p.y - 500)) / squared(200);
         return std::exp(-squared((p.z - middle) / thickness) - squared(reach) * reach);
     };
-    return site_of("thin layer", field, 3 * scale, {0.1, 0.2});
+    return site_of("thin layer", field, 3 * scale, {0.1, 0.2}, wells);
 }
 
-AnalyticSite raised_zone(double scale) {
+AnalyticSite raised_zone(double scale, int wells) {
     const Vec3 centre{500, 500, 250};
     const double dip_deg = 60;
     const double dip = dip_deg * std::numbers::pi / 180;
@@ -90,7 +93,7 @@ AnalyticSite raised_zone(double scale) {
         const double off = dot(p - centre, normal);
         return off >= 0 ? std::exp(-off / width) : 0.4 * std::exp(2 * off / width);
     };
-    AnalyticSite site = site_of("raised zone along a fault", field, 5 * scale, {0.02, 0.2});
+    AnalyticSite site = site_of("raised zone along a fault", field, 5 * scale, {0.02, 0.2}, wells);
     site.site.surfaces = {planar_fault("F", centre, 0, dip_deg, 1000, 1000, 20)};
     return site;
 }

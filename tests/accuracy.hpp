@@ -23,11 +23,11 @@ struct AnalyticSite {
     BuildOptions options;
 };
 
-/// Three sites of 1000 × 1000 × 500 with 25 wells, a sample every 2. `scale` stretches the layer's or the zone's
-/// thickness and the criteria with it: 1 for the published table, more for quicker work.
-AnalyticSite smooth_trend(double scale);
-AnalyticSite thin_layer(double scale);
-AnalyticSite raised_zone(double scale);
+/// Three sites of 1000 × 1000 × 500 with `wells` by `wells` wells, a sample every 2. `scale` stretches the layer's or
+/// the zone's thickness and the criteria with it: 1 for the published table, more for quicker work.
+AnalyticSite smooth_trend(double scale, int wells = 5);
+AnalyticSite thin_layer(double scale, int wells = 5);
+AnalyticSite raised_zone(double scale, int wells = 5);
 
 /// A tetrahedral mesh with a value at each vertex.
 struct MeshField {

@@ -5,7 +5,9 @@
 /// uniform grid with as many values and a uniform tetrahedral mesh with as many vertices, for three analytic fields:
 /// with the formula's value at each vertex, and with values that the default estimator makes of the samples.
 ///
-///   accuracy_bench [--insertion-only] [--scale S=1] [--places N=1000000] [--section FOLDER]
+///   accuracy_bench [--insertion-only] [--scale S=1] [--wells N=5] [--places N=1000000] [--section FOLDER]
+///
+/// There are N by N wells.
 ///
 /// With --section, FOLDER gets what docs/images/accuracy.py makes its picture from.
 
@@ -26,6 +28,7 @@ namespace {
 struct Arguments {
     bool clean_up = true;
     double scale = 1;
+    int wells = 5;
     std::size_t places = 1'000'000;
     std::string folder;
 };
@@ -37,6 +40,8 @@ Arguments parse(int argc, char** argv) {
             arguments.clean_up = false;
         } else if (i + 1 < argc && std::strcmp(argv[i], "--scale") == 0) {
             arguments.scale = std::atof(argv[++i]);
+        } else if (i + 1 < argc && std::strcmp(argv[i], "--wells") == 0) {
+            arguments.wells = std::atoi(argv[++i]);
         } else if (i + 1 < argc && std::strcmp(argv[i], "--places") == 0) {
             arguments.places = std::strtoull(argv[++i], nullptr, 10);
         } else if (i + 1 < argc && std::strcmp(argv[i], "--section") == 0) {
@@ -140,15 +145,15 @@ void compare_estimated(const AnalyticSite& site, std::size_t count) {
 
 int main(int argc, char** argv) {
     const Arguments arguments = parse(argc, argv);
-    std::printf("rms errors at %zu places, scale %g%s\n\n", arguments.places, arguments.scale,
-                arguments.clean_up ? "" : ", clean-up off");
+    std::printf("rms errors at %zu places, scale %g, %d by %d wells%s\n\n", arguments.places, arguments.scale,
+                arguments.wells, arguments.wells, arguments.clean_up ? "" : ", clean-up off");
     std::printf(
         "| field | vertices | adaptive | uniform grid | uniform mesh | grid / adaptive | mesh / adaptive | seconds "
         "|\n|---|---|---|---|---|---|---|---|\n");
-    const std::pair<const char*, AnalyticSite (*)(double)> sites[] = {
+    const std::pair<const char*, AnalyticSite (*)(double, int)> sites[] = {
         {"trend", smooth_trend}, {"layer", thin_layer}, {"zone", raised_zone}};
     for (const auto& [stem, make] : sites) {
-        AnalyticSite site = make(arguments.scale);
+        AnalyticSite site = make(arguments.scale, arguments.wells);
         site.options.refine.clean_up = arguments.clean_up;
         compare(site, arguments.folder.empty() ? "" : arguments.folder + "/" + stem, arguments.places);
         compare_estimated(site, arguments.places);

@@ -141,8 +141,6 @@ void take_cells(const std::vector<CutMesh::Cell>& cells, CollapsedModel& collaps
         table.radius_edge[c] = static_cast<float>(quality.radius_edge);
         table.aspect[c] = static_cast<float>(quality.aspect);
         table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
-        const Vec3 centroid = 0.25 * (points[v[0]] + points[v[1]] + points[v[2]] + points[v[3]]);
-        table.in_extent[c] = collapsed.model.domain.extent.contains(centroid) ? 1 : 0;
     }
     collapsed.mesh.neighbours = neighbours_of(collapsed.mesh.cells);
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 
 #include "tess/blend.hpp"
@@ -17,20 +16,10 @@ namespace {
 constexpr double wanted_edge = 0.3;  ///< over l_min
 constexpr std::int32_t beyond = -2;
 
-/// Samples stay, and the faults' own points. The seeds of exact faults have done their work: they stand off the faults.
-/// Nodes that were added where edges crossed a fault may give way to others along it.
 std::vector<CutMesh::Hold> holds(const CollapsedModel& collapsed) {
-    std::set<Vec3> of_faults;
-    for (const Fault& fault : collapsed.model.faults) {
-        for (const Surface* part : {&fault.sheet, &fault.margin}) {
-            of_faults.insert(part->vertices.begin(), part->vertices.end());
-        }
-    }
-    const bool exact = collapsed.model.fault_options.mode == FaultMode::exact;
     std::vector<CutMesh::Hold> result;
     for (const Vertex& vertex : collapsed.model.vertices) {
-        const bool stays = vertex.role == Role::sample ||
-                           (vertex.role == Role::seed && (!exact || of_faults.contains(vertex.position)));
+        const bool stays = vertex.role == Role::sample || vertex.role == Role::seed;
         result.push_back(stays ? CutMesh::Hold::fixed : CutMesh::Hold::free);
     }
     return result;
@@ -148,6 +137,9 @@ void take_cells(const std::vector<CutMesh::Cell>& cells, CollapsedModel& collaps
 }  // namespace
 
 void mend_collapsed(CollapsedModel& collapsed) {
+    if (collapsed.model.fault_options.mode == FaultMode::exact) {
+        return;  // triangles between three points of a rim part cells that share their nodes, and would be lost
+    }
     CutMesh mended = cut_mesh(collapsed);
     mend_cuts(mended);
     std::erase_if(mended.cells, [](const CutMesh::Cell& cell) { return CutStars::gone(cell); });

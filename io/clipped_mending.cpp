@@ -51,7 +51,7 @@ void take_points(const ModelView& view, const CutMesh& mended, ClippedMesh& mesh
             parent_at[v] = mesh.parent[c];
         }
     }
-    const OwnSideField field(view.mesh, view.cells.fault, view.model.faults);
+    const OwnSideField field(view.mesh, view.cells.fault, view.model);
     const std::size_t first = view.model.vertices.size() + mesh.cuts.size();
     for (std::size_t i = 0; i < mended.points.size(); ++i) {
         if (mended.moved[i] != 0 && parent_at[i] != none) {

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "tess/fault_proximity.hpp"
+#include "tess/model.hpp"
 #include "tess/tessellation.hpp"
 
 namespace terratet {
@@ -39,8 +40,8 @@ bool is_hidden(const FaultProximity& faults, const Vec3& p, const Vec3& vertex);
 class OwnSideField {
   public:
     /// \param gap of each cell, the fault between whose sheets it is; −1. All outlive this.
-    OwnSideField(const TetMesh& mesh, std::span<const std::int32_t> gap, std::span<const Fault> faults)
-        : mesh_(mesh), gap_(gap), faults_(faults) {}
+    OwnSideField(const TetMesh& mesh, std::span<const std::int32_t> gap, const Model& model)
+        : mesh_(mesh), gap_(gap), faults_(model_proximity(model)) {}
 
     /// \param cell near p, from which a walk through no gap starts; where it ends at one, the field goes on linearly
     ///             as far as the cell's corners

@@ -75,7 +75,7 @@ void take_points(const CutMesh& mended, const std::vector<std::uint32_t>& near, 
     for (const Vertex& vertex : model.vertices) {
         next_id = std::max(next_id, vertex.id + 1);
     }
-    const OwnSideField field(collapsed.mesh, collapsed.cells.fault, model.faults);
+    const OwnSideField field(collapsed.mesh, collapsed.cells.fault, model);
     const VertexValues before = model.vertex_values;
     for (std::size_t v = 0; v < mended.points.size(); ++v) {
         if (mended.moved[v] == 0 || near[v] == CutStars::none) {

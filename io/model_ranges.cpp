@@ -126,7 +126,7 @@ void Ranges::criteria() {
     require(c.l_max >= c.l_min && c.l_max <= 10 * max_coordinate, "criteria", "l_max", c.l_max,
             "a length from l_min to 1e10");
     require_as_given("criteria", [&] { validate(c); });
-    if (!c.variation.empty() && c.variation.size() != model_.properties.size()) {
+    if (c.variation.size() > model_.properties.size()) {  // what is known of a property's uncertainty has none
         fail("criteria", "there are " + std::to_string(c.variation.size()) + " limits of variation for " +
                              std::to_string(model_.properties.size()) + " properties");
     }

@@ -214,7 +214,8 @@ TEST_CASE("Every number of terratet_meta is held to its range, naming the key an
     CHECK_THAT(meta("domain", "hull.hi[1]", "-1e9"), Contains("hull"));
     meta("domain", "outline", "[[[0,0,0],[1,0,0]]]");
     meta("domain", "outline", "[[[0,0,0],[1e300,0,0],[0,1,0]]]");
-    meta("criteria", "variation", "[{\"df_min\":0,\"df_max\":1}]");
+    const std::string limits = "{\"df_min\":0,\"df_max\":1}";
+    meta("criteria", "variation", "[" + limits + "," + limits + "," + limits + "]");
     meta("criteria", "overrides", "[{\"where\":{\"block_at\":[1e300,0,0]},\"l_min\":1,\"l_max\":2}]");
     meta("criteria", "overrides", "[{\"where\":{\"block_at\":[1,0,0]},\"l_min\":0,\"l_max\":2}]");
     meta("regions", "[0].at[1]", "1e10");

@@ -71,7 +71,7 @@ class Clip(Case):
         extent = (290000, 3790000, -12000, 350000, 3815000, 0)
         self.succeed("build", "--boreholes", self.write("collar.csv", collars), "--log", self.write("log.csv", log),
                      *[argument for path in files[:3] for argument in ("--faults", path)], "-s_srs", "EPSG:32611", "-te", *extent,
-                     "--property", "value", "--estimator", "idw", "--fault-spacing", "3000", "--lmin", "2500", "--lmax", "10000", "-o", "m.gpkg")
+                     "--property", "value", "--estimator", "idw", "--fault-spacing", "3000", "--lmin", "2500", "--lmax", "10000", "--z-scale", "1", "-o", "m.gpkg")
         account = self.export("clip.vtu")
         shapes = self.check("clip.vtu", extent, 2500)
         for key in ("cells", "below_1_deg", "below_10_deg", "short_edges"):

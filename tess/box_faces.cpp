@@ -174,7 +174,16 @@ std::size_t edge_number(int axis, bool upper_first, bool upper_second) {
 
 }  // namespace
 
+bool BoxFaces::is_on_boundary(const Vec3& p) const {
+    return p.x == hull_.lo.x || p.x == hull_.hi.x || p.y == hull_.lo.y || p.y == hull_.hi.y || p.z == hull_.lo.z ||
+           p.z == hull_.hi.z;
+}
+
 void BoxFaces::insert(const Vec3& p) {
+    if (!is_on_boundary(p)) {
+        return;
+    }
+    reach_ = 0;  // a new triangle may be wider
     for (int axis = 0; axis < 3; ++axis) {
         const auto [u, v] = other_axes(axis);
         for (const bool upper : {false, true}) {
@@ -247,7 +256,27 @@ std::optional<BoxFaces::Split> BoxFaces::split_of_face(const Vec3& place, int ax
                : std::nullopt;
 }
 
+/// Farther inside than any ball about the boundary reaches.
+bool BoxFaces::is_deep(const Vec3& place) const {
+    if (!(reach_ > 0)) {
+        for (const Face& face : *faces_) {
+            reach_ = std::max(reach_, std::sqrt(face.widest()));
+        }
+        for (const Edge& edge : *edges_) {
+            reach_ = std::max(reach_, std::sqrt(edge.widest()));
+        }
+    }
+    bool deep = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        deep = deep && place[axis] - hull_.lo[axis] > reach_ && hull_.hi[axis] - place[axis] > reach_;
+    }
+    return deep;
+}
+
 std::optional<Vec3> BoxFaces::split_for(const Vec3& place) const {
+    if (is_deep(place)) {
+        return std::nullopt;
+    }
     if (const auto edge = split_of_edges(place)) {
         return edge->place;
     }

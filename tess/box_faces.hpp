@@ -36,11 +36,14 @@ class BoxFaces {
     class Edge;
     struct Split;
 
+    [[nodiscard]] bool is_on_boundary(const Vec3& p) const;
+    [[nodiscard]] bool is_deep(const Vec3& place) const;
     [[nodiscard]] std::optional<Split> split_of_face(const Vec3& place, int axis, bool upper) const;
     [[nodiscard]] std::optional<Split> split_of_edge(const Vec3& place, int along, bool upper_u, bool upper_v) const;
     [[nodiscard]] std::optional<Split> split_of_edges(const Vec3& place) const;
 
     Box3 hull_;
+    mutable double reach_ = 0;  ///< the widest ball's radius; 0: not known
     std::unique_ptr<std::array<Face, 6>> faces_;
     std::unique_ptr<std::array<Edge, 12>> edges_;
 };

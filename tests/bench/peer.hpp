@@ -50,9 +50,10 @@ MeshResult measured(double seconds, std::size_t vertices, std::size_t cells, con
 /// optimisation.
 MeshResult tetgen(const PointsInBox& task, double volume, double radius_edge, const char* more);
 
-/// CGAL's Mesh_3, sequential, R/ℓ up to 2, circumradii up to `size`, with its optimisers as they are by default
-/// (perturbation and exudation), or without. The box only: it takes no points.
-MeshResult mesh_3(const PointsInBox& task, double size, bool optimise);
+/// CGAL's Mesh_3, R/ℓ up to 2, circumradii up to `size`, with its optimisers as they are by default
+/// (perturbation and exudation), or without. The box only: it takes no points. With more than one thread its seconds
+/// are those of the clock on the wall.
+MeshResult mesh_3(const PointsInBox& task, double size, bool optimise, int threads);
 
 /// Gmsh's Delaunay algorithm with the points embedded, edges of about `size`, with its optimiser as it is by default,
 /// or without. In a process of its own (gmsh_peer), since Gmsh's library brings a TetGen of its own along. Nothing when

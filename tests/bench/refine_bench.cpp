@@ -66,9 +66,13 @@ std::vector<Tool> tools() {
     all.push_back({"TetGen", [](const auto& task, double volume) { return tetgen(task, volume, 2, ""); }});
 #endif
     for (const bool optimise : {false, true}) {
-        all.push_back({optimise ? "CGAL Mesh_3" : "CGAL Mesh_3, not optimising", [=](const auto& task, double volume) {
-                           return mesh_3(task, edge_of_volume(volume), optimise);
-                       }});
+        for (const int threads : {1, 2}) {
+            all.push_back({std::string("CGAL Mesh_3") + (threads == 2 ? ", two threads" : "") +
+                               (optimise ? "" : ", not optimising"),
+                           [=](const auto& task, double volume) {
+                               return mesh_3(task, edge_of_volume(volume), optimise, threads);
+                           }});
+        }
 #ifdef TERRATET_GMSH_PEER
         all.push_back({optimise ? "Gmsh" : "Gmsh, not optimising",
                        [=](const auto& task, double volume) { return gmsh(task, edge_of_volume(volume), optimise); }});
@@ -145,8 +149,8 @@ void compare(const PointsInBox& task, double cells, int runs) {
     std::printf("\n");
     ratio("Terratet, insertion alone", "TetGen `O0o/180`");
     for (const char* ours : {"Terratet", "Terratet, β ≤ 8"}) {
-        for (const char* peer :
-             {"TetGen", "CGAL Mesh_3, not optimising", "CGAL Mesh_3", "Gmsh, not optimising", "Gmsh"}) {
+        for (const char* peer : {"TetGen", "CGAL Mesh_3, not optimising", "CGAL Mesh_3, two threads, not optimising",
+                                 "CGAL Mesh_3", "CGAL Mesh_3, two threads", "Gmsh, not optimising", "Gmsh"}) {
             ratio(ours, peer);
         }
     }

@@ -31,8 +31,8 @@ class CompactDelaunay {
     struct alignas(64) Cell {
         std::array<std::int32_t, 4> vertex;     ///< positively oriented
         std::array<std::int32_t, 4> neighbour;  ///< opposite each vertex; −1 beyond the cube
-        Vec3 center;                            ///< of the circumsphere, to relative_center_error of its radius, mostly far better
-        double squared_radius;                  ///< from that centre to a vertex; NaN where the error is larger
+        Vec3 center;            ///< of the circumsphere, to relative_center_error of its radius, mostly far better
+        double squared_radius;  ///< from that centre to a vertex; NaN where the error is larger
     };
     static_assert(sizeof(Cell) == 64);
 

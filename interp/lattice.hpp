@@ -23,8 +23,8 @@ struct Lattice {
     [[nodiscard]] std::int64_t count() const { return size[0] * size[1] * size[2]; }
 };
 
-/// Voxels of the given size that together cover the box, centred on it. Throws UsageError when a size is not positive or
-/// the lattice would have more than `max_voxels`, naming a size that fits.
+/// Voxels of the given size that together cover the box, centred on it. Throws UsageError when a size is not positive
+/// or the lattice would have more than `max_voxels`, naming a size that fits.
 Lattice lattice_over(const Box3& box, const Vec3& voxel_size, std::int64_t max_voxels = 2'000'000'000);
 
 }  // namespace terratet

@@ -129,7 +129,8 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
 void learn_group(Group& group, const Model& model, const EstimatorPlan& asked, std::size_t max_folds,
                  EstimatorPlan& plan) {
     const auto boreholes = picked(model.samples.borehole, group.samples);
-    ErrorTask task{group.spec, group.spec, model.samples, group.samples, group.sites, boreholes, *group.barriers, {}, max_folds};
+    ErrorTask task{group.spec,      group.spec, model.samples, group.samples, group.sites, boreholes,
+                   *group.barriers, {},         max_folds};
     for (const auto& column : group.columns) {
         const Property& property = model.properties[column.property];
         const auto known = asked.calibrations.find(property.name);

@@ -14,8 +14,9 @@
 /// openness over distance: ring by ring of natural neighbours, at least two rings or 64 sites, on until the directions
 /// are determined: their spread (the root of the sum of squares) along each axis is at least a thirtieth of that along
 /// the widest; where the rings end, up to four more in each octant, wherever they are. What the site sees past a
-/// fault's end, on the other side of the fault, counts only where the rest does not do. Where nothing does, the slope is 0 along the axes that stay undetermined: the plane of least slope. All in
-/// the coordinates of the estimator's anisotropy.
+/// fault's end, on the other side of the fault, counts only where the rest does not do. Where nothing does, the slope
+/// is 0 along the axes that stay undetermined: the plane of least slope. All in the coordinates of the estimator's
+/// anisotropy.
 ///
 /// Fitted when first needed, once a site, from the site's surroundings alone: const, reentrant, and the same whatever
 /// was asked before. About 50 µs a site, some hundreds among boreholes or faults; 48 bytes a site and 32 more for each

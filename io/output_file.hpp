@@ -4,8 +4,8 @@
 /// \file
 /// Output whole or not at all: bytes go to a temporary file in the same folder; commit() syncs and renames it.
 /// Destroyed without commit, nothing remains. (A killed process leaves its temporary file, `.terratet-*`, and what was
-/// there before.) A limit on the size of files (ulimit -f) is an error like a full disk where SIGXFSZ is ignored, as the
-/// command does; else the system kills the process.
+/// there before.) A limit on the size of files (ulimit -f) is an error like a full disk where SIGXFSZ is ignored, as
+/// the command does; else the system kills the process.
 
 #include <cstddef>
 #include <cstdint>

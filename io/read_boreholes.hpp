@@ -18,8 +18,9 @@ struct Hole {
     std::string id;
     Trajectory path;
     double unit_factor = 1;  ///< target units in a unit of the tables' depths
-    double surveyed = 0;     ///< the last station. Often a stand-in such as 90000, "to the end": it says little of the length
-    double deepest = 0;      ///< so far: the stated length; logs add theirs
+    double surveyed =
+        0;  ///< the last station. Often a stand-in such as 90000, "to the end": it says little of the length
+    double deepest = 0;  ///< so far: the stated length; logs add theirs
 
     /// Where the hole ends: at its stated length or deepest log record, else at its last station.
     [[nodiscard]] double end() const { return deepest > 0 ? deepest : surveyed; }

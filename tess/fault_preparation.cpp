@@ -295,7 +295,8 @@ void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll) c
     const auto count = static_cast<std::uint32_t>(candidates_.size());
     if (options_.mode == FaultMode::paired) {
         pass.skirts = skirts(pass.complex, edges);
-        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll}, pass.skirts);
+        pass.seeded =
+            paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll}, pass.skirts);
     } else {
         const FaultComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);

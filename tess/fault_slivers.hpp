@@ -28,8 +28,8 @@ struct MovablePair {
 using MayMove = std::function<bool(std::size_t pair, const Vec3& plus, const Vec3& minus)>;
 
 struct SliversMended {
-    std::size_t before = 0;  ///< cells between four seeds with an angle below a degree or little more, gaps' cells but for
-                             ///< those of one fault among them
+    std::size_t before = 0;  ///< cells between four seeds with an angle below a degree or little more, gaps' cells but
+                             ///< for those of one fault among them
     std::size_t after = 0;
     std::vector<char> moved;  ///< by pair
 };

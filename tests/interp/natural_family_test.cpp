@@ -337,8 +337,7 @@ TEST_CASE("With anisotropy they are what they are without among sites turned and
                 REQUIRE(with[i].terms[k].site == without[i].terms[k].site);
                 REQUIRE(with[i].terms[k].weight == without[i].terms[k].weight);
             }
-            different +=
-                with[i].terms.size() != plain[i].terms.size() || with[i].beyond != plain[i].beyond;
+            different += with[i].terms.size() != plain[i].terms.size() || with[i].beyond != plain[i].beyond;
         }
         CHECK(different > 200);
         // A linear field stays one, and a site has its own value.

@@ -270,7 +270,8 @@ TEST_CASE("What cannot be used is refused with its reason") {
     CHECK(reason({tangle}).find("no surface") != std::string::npos);
     const std::vector<Surface> alternatives = {rectangle("a", {200, 200, 200}, {300, 0, 0}, {0, 300, 0}),
                                                rectangle("b", {200, 200, 206}, {280, 0, 8}, {0, 300, 0})};
-    CHECK(reason(alternatives).find("overlaps fault 'b'") != std::string::npos);  // b, tilted, is the larger, and they meet
+    CHECK(reason(alternatives).find("overlaps fault 'b'") !=
+          std::string::npos);  // b, tilted, is the larger, and they meet
     Surface horizon = rectangle("h", {200, 200, 200}, {300, 0, 0}, {0, 300, 0});
     horizon.kind = SurfaceKind::horizon;
     CHECK(prepared({horizon}).accounts.at(0).used);  // surfaces of all kinds are prepared alike

@@ -59,6 +59,8 @@ void write_named(const std::string& path, const Write& write) {
         throw;
     } catch (const UsageError& error) {
         throw UsageError(fmt::format("{}; written before it: {}", error.what(), names));
+    } catch (const Cancelled&) {
+        throw Error(fmt::format("interrupted; written before it: {}", names));
     } catch (const Error& error) {
         throw Error(fmt::format("{}; written before it: {}", error.what(), names));
     }

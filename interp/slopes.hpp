@@ -19,8 +19,7 @@
 /// anisotropy.
 ///
 /// Fitted when first needed, once a site, from the site's surroundings alone: const, reentrant, and the same whatever
-/// was asked before. About 50 µs a site, some hundreds among boreholes or faults; 48 bytes a site and 32 more for each
-/// column, for those that were needed.
+/// was asked before. 48 bytes a site and 32 more for each column, for those that were needed.
 
 #include <atomic>
 #include <cstdint>

@@ -41,11 +41,20 @@ struct EstimatorSpec {
 /// Parses and checks names, options and ranges. Throws UsageError that lists what there is.
 EstimatorSpec parse_estimator(const std::string& text);
 
+/// What is known of a property from all of its samples.
+struct ColumnTraits {
+    double lowest = 0;  ///< of the values, in the scale
+    double highest = 0;
+    double reach = 0;  ///< reach_of (extrapolation.hpp)
+};
+
 /// The estimators of a model's properties: one for all, but for those that have their own. Text: a specification, and
-/// on further lines `SPEC of PROPERTY`, and how far errors were found to go, as `CALIBRATION of PROPERTY`.
+/// on further lines `SPEC of PROPERTY`, `samples:lowest=…:highest=…:reach=… of PROPERTY`, and how far errors were found
+/// to go, as `CALIBRATION of PROPERTY`.
 struct EstimatorPlan {
     EstimatorSpec general;
     std::map<std::string, EstimatorSpec> of_property;
+    std::map<std::string, ColumnTraits> traits{};       ///< of properties; missing: found from the samples
     std::map<std::string, Calibration> calibrations{};  ///< of properties; missing: found when errors are asked for
 
     EstimatorPlan() = default;
@@ -55,7 +64,7 @@ struct EstimatorPlan {
     [[nodiscard]] std::string to_string() const;
 };
 
-/// Throws UsageError as parse_estimator does.
+/// Throws UsageError as parse_estimator does, also for traits or a calibration that no samples can have.
 EstimatorPlan parse_estimator_plan(const std::string& text);
 
 struct SiteWeight {
@@ -72,7 +81,7 @@ struct Weights {
     Vec3 lever{};       ///< from the terms' weighted centroid to the query, of a method that makes up for it by
                         ///< slopes (Estimator::slopes); 0 where nothing is hidden
     std::vector<SiteWeight> slope_terms;  ///< whose slopes count along the lever; empty: the terms
-    double distance = std::numeric_limits<double>::infinity();  ///< to the nearest site that can be seen
+    double distance = std::numeric_limits<double>::infinity();  ///< the shortest way to a site (ways_round.hpp)
     bool fallback = false;  ///< computed by a slower or simpler way than the method's own
     double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the estimate's error in the scale's unit
                                                                  ///< squared; NaN where the method knows none

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// How far an estimate reaches beyond the samples, a figure to mask by: e = min(1, d / 2a), d the way to the nearest
-/// sample and a the distance over which samples tell something, both in the coordinates of the estimator's anisotropy.
-/// 0 on a sample, 0.5 at a, 1 from 2a on.
+/// How far an estimate reaches beyond the samples, a figure to mask by: e = min(1, d / 2a), d the shortest way round
+/// barriers to a sample (ways_round.hpp) and a the distance over which samples tell something, both in the coordinates
+/// of the estimator's anisotropy. 0 on a sample, 0.5 at a, 1 from 2a on.
 
 #include <cstdint>
 #include <span>

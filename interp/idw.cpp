@@ -41,7 +41,7 @@ void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Wei
             index_.neighbourhood(queries[i], options_.neighbourhood, near);
             out[i].clear();
             if (!near.empty()) {
-                out[i].distance = std::sqrt(near.front().squared_distance);
+                out[i].distance = index_.shortest_way(queries[i], std::sqrt(near.front().squared_distance));
                 weigh(near, options_.power, out[i].terms);
             }
         }

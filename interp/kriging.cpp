@@ -46,7 +46,7 @@ void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
         if (work.near.empty()) {
             return;
         }
-        result.distance = std::sqrt(work.near.front().squared_distance);
+        result.distance = index_.shortest_way(query, std::sqrt(work.near.front().squared_distance));
         if (work.near.front().squared_distance == 0) {
             result.terms.push_back({work.near.front().site, 1.0});
             result.variance = 0;

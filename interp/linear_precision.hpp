@@ -15,11 +15,6 @@
 namespace terratet {
 
 /// What is needed besides weights. From all of a property's samples, also where some are left out.
-struct ColumnTraits {
-    double lowest = 0;  ///< of the values, in the scale
-    double highest = 0;
-    double reach = 0;  ///< reach_of (extrapolation.hpp)
-};
 ColumnTraits traits_of(std::span<const double> scaled, double reach);
 
 /// Added to a weighted mean.

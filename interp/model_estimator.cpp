@@ -92,6 +92,19 @@ std::shared_ptr<const Slopes> slopes_of(const Group& group) {
     return group.estimator->slopes(std::move(columns));
 }
 
+/// As the plan knows them, else found and noted there.
+void set_traits(Group& group, const Model& model, std::span<const std::int32_t> boreholes, EstimatorPlan& plan) {
+    std::optional<double> reach;
+    for (auto& column : group.columns) {
+        const auto [known, fresh] = plan.traits.try_emplace(model.properties[column.property].name);
+        if (fresh) {
+            reach = reach ? reach : reach_of(group.spec, group.sites, boreholes);
+            known->second = traits_of(column.scaled, *reach);
+        }
+        column.traits = known->second;
+    }
+}
+
 /// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
 /// values.
 std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, EstimatorPlan& plan) {
@@ -115,10 +128,7 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
         group.sites = beside_barriers(picked(model.samples.positions, group.samples), faults);
         const auto boreholes = picked(model.samples.borehole, group.samples);
         group.estimator = make_estimator(group.spec, group.sites, group.barriers, boreholes);
-        const double reach = reach_of(group.spec, group.sites, boreholes);
-        for (auto& column : group.columns) {
-            column.traits = traits_of(column.scaled, reach);
-        }
+        set_traits(group, model, boreholes, plan);
         out.push_back(std::move(group));
         out.back().slopes = slopes_of(out.back());
     }
@@ -345,8 +355,8 @@ ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults,
     : impl_(new Impl{model, faults, plan, {}, std::move(counters)}) {
     impl_->groups = groups_of(model, faults, impl_->plan);
     if (impl_->groups.size() == 1) {
-        impl_->plan = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
-        impl_->plan.calibrations = plan.calibrations;
+        impl_->plan.general = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
+        impl_->plan.of_property.clear();
     }
     if (options.uncertainty) {
         for (auto& group : impl_->groups) {

@@ -18,7 +18,7 @@ void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> ou
             index_.nearest(queries[i], 1, near);
             out[i].clear();
             if (!near.empty()) {
-                out[i].distance = std::sqrt(near.front().squared_distance);
+                out[i].distance = index_.shortest_way(queries[i], std::sqrt(near.front().squared_distance));
                 out[i].terms.push_back({near.front().site, 1.0});
             }
         }

@@ -7,9 +7,9 @@ namespace terratet {
 SheetSides::SheetSides(const SiteMesh& sites) : sites_(sites) {
     if (const FaultProximity* faults = sites.faults()) {
         for (std::size_t f = 0; f < faults->faults().size(); ++f) {
-            const Surface& sheet = faults->faults()[f].sheet;
-            if (sheet.kind == SurfaceKind::fault && !sheet.triangles.empty()) {
-                barriers_.push_back(static_cast<std::int32_t>(f));
+            const auto index = static_cast<std::int32_t>(f);
+            if (faults->bars(index) && !faults->faults()[f].sheet.triangles.empty()) {
+                barriers_.push_back(index);
             }
         }
         const auto count = static_cast<std::size_t>(sites.tessellation().site_count());

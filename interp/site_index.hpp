@@ -7,11 +7,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "interp/anisotropy.hpp"
 #include "interp/site_tree.hpp"
+#include "interp/ways_round.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/value_source.hpp"
 
@@ -24,6 +26,8 @@ class SiteIndex {
     /// \param boreholes  of each site, for Neighbourhood::per_borehole; empty: none
     SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {},
               std::span<const std::int32_t> boreholes = {});
+    SiteIndex(const SiteIndex&) = delete;
+    SiteIndex& operator=(const SiteIndex&) = delete;
 
     /// No fault's sheet between the query and the site?
     [[nodiscard]] bool visible(const ValueQuery& query, std::uint32_t site) const;
@@ -36,6 +40,10 @@ class SiteIndex {
 
     /// The same under all the limits of a neighbourhood. Octants are those of the anisotropy's axes.
     void neighbourhood(const ValueQuery& query, const Neighbourhood& limits, std::vector<NearSite>& out) const;
+
+    /// The shortest way round the faults from a place to a site (ways_round.hpp). \param straight  to the nearest that
+    /// is visible
+    [[nodiscard]] double shortest_way(const ValueQuery& query, double straight) const;
 
     /// Distances are those in these coordinates.
     [[nodiscard]] const Metric& metric() const { return metric_; }
@@ -50,6 +58,7 @@ class SiteIndex {
     const FaultProximity* faults_;
     Metric metric_;
     SiteTree tree_;
+    std::unique_ptr<const WaysRound> ways_;  ///< null without faults
 };
 
 }  // namespace terratet

@@ -119,7 +119,7 @@ void SiteMesh::weigh(const SiteQuery& q, std::span<const std::int32_t> vertices,
             out.lever = out.lever + weight * away;
         }
     }
-    out.distance = distance_to_visible(q, std::sqrt(nearest));
+    out.distance = way_to_site(q, std::sqrt(nearest));
 }
 
 void SiteMesh::number_as_given(Weights& out) const {
@@ -138,16 +138,16 @@ void SiteMesh::nearest_visible(const SiteQuery& q, Weights& out) const {
     index_.nearest(ValueQuery{q.place}, 1, near);
     if (!near.empty()) {
         out.terms = {{near.front().site, 1.0}};
-        out.distance = std::sqrt(near.front().squared_distance);
+        out.distance = index_.shortest_way({q.place}, std::sqrt(near.front().squared_distance));
         out.lever = q.at - mesh_.points()[near.front().site];
     }
 }
 
-double SiteMesh::distance_to_visible(const SiteQuery& q, double most) const {
+double SiteMesh::way_to_site(const SiteQuery& q, double most) const {
     thread_local std::vector<NearSite> near;
     near.clear();
     index_.nearest(ValueQuery{q.place}, 1, near, most);
-    return near.empty() ? most : std::sqrt(near.front().squared_distance);
+    return index_.shortest_way({q.place}, near.empty() ? most : std::sqrt(near.front().squared_distance));
 }
 
 std::size_t SiteMesh::memory_bytes() const {

@@ -78,8 +78,8 @@ class SiteMesh {
     SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
              const Anisotropy& anisotropy);
     void nearest_visible(const SiteQuery& q, Weights& out) const;
-    /// \param most  that of one that is visible
-    [[nodiscard]] double distance_to_visible(const SiteQuery& q, double most) const;
+    /// Round barriers. \param most  that of one that is visible
+    [[nodiscard]] double way_to_site(const SiteQuery& q, double most) const;
 
     std::vector<std::uint32_t> original_;
     std::vector<Vec3> places_;  ///< of the sites, in the tessellation's order; empty: as in the tessellation

@@ -24,8 +24,8 @@ class RowIndex {
     void add(std::int64_t row) { rows_.push_back(row); }
 
     [[nodiscard]] std::optional<std::size_t> find(std::int64_t row) const {
-        const auto guess = static_cast<std::size_t>(row - 1);
-        if (row >= 1 && guess < rows_.size() && rows_[guess] == row) {
+        const std::size_t guess = static_cast<std::size_t>(row) - 1;
+        if (guess < rows_.size() && rows_[guess] == row) {
             return guess;
         }
         const auto found = std::lower_bound(rows_.begin(), rows_.end(), row);

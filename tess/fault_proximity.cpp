@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "tess/estimation_barriers.hpp"
 #include "tess/fault_approach.hpp"
+#include "tess/rim_turns.hpp"
 #include "tess/triangle_grid.hpp"
 #include "tess/triangle_tree.hpp"
 
@@ -69,6 +71,7 @@ struct Bar {
     std::size_t fault;
     const TriangleTree* sheet;
     TriangleTree beyond;
+    std::vector<EdgePlace> rims;
 };
 
 }  // namespace
@@ -78,7 +81,7 @@ struct FaultProximity::Impl {
         : sheets(std::move(of)), covered(inner) {
         for (std::size_t f = 0; f < barriers.size(); ++f) {
             if (barriers[f].bars) {
-                bars.push_back({f, &sheets->trees[f], TriangleTree(barriers[f].beyond)});
+                bars.push_back({f, &sheets->trees[f], TriangleTree(barriers[f].beyond), barriers[f].rims});
                 rims.add(barriers[f].rims, sheets->faults[f].spacing);
             }
         }
@@ -96,6 +99,8 @@ struct FaultProximity::Impl {
     Box3 covered;                          ///< what goes on beyond a sheet stays out of it: a convex place
     std::unique_ptr<FaultProximity> hard;  ///< with the horizons among the barriers
     std::vector<bool> hard_for;            ///< of each property
+    std::once_flag turns_wanted;
+    RimTurns turns;
 };
 
 FaultProximity::FaultProximity(std::span<const Fault> faults) : FaultProximity(faults, sheets_as_barriers(faults)) {}
@@ -160,6 +165,21 @@ bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t exce
 
 double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
     return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
+}
+
+bool FaultProximity::bars(std::int32_t fault) const {
+    return std::ranges::find(impl_->bars, static_cast<std::size_t>(fault), &Bar::fault) != impl_->bars.end();
+}
+
+const RimTurns& FaultProximity::turns() const {
+    std::call_once(impl_->turns_wanted, [&] {
+        std::vector<SheetRim> sheets;
+        for (const Bar& bar : impl_->bars) {
+            sheets.push_back({&impl_->sheets->faults[bar.fault].sheet, bar.rims});
+        }
+        impl_->turns = rim_turns(sheets, [&](const Vec3& a, const Vec3& b) { return !crosses_any(a, b); });
+    });
+    return impl_->turns;
 }
 
 Vec3 FaultProximity::off_barriers(const Vec3& p, std::int32_t fault, std::int8_t side) const {

@@ -16,6 +16,7 @@ namespace terratet {
 
 struct Barriers;
 struct Model;
+struct RimTurns;
 
 class FaultProximity {
   public:
@@ -50,6 +51,12 @@ class FaultProximity {
     /// nearest free rim, in units of that fault's spacing, but at most 1. Continuous in a and b until one of them meets
     /// a barrier: what estimators weigh samples with whose field is to be continuous round a fault's end.
     [[nodiscard]] double openness(const Vec3& a, const Vec3& b) const;
+
+    /// Does fault f bar it?
+    [[nodiscard]] bool bars(std::int32_t fault) const;
+
+    /// Where ways round what bars turn (rim_turns.hpp). Found when first asked for: some 0.1 s.
+    [[nodiscard]] const RimTurns& turns() const;
 
     /// Where a place that lies exactly on barriers, hard horizons among them, is thought to be: a billionth of the
     /// spacing away or little more, on the given side of `fault` (−1: of all that meet there), and on the + side where

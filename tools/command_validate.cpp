@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spdlog/spdlog.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "io/output_file.hpp"
 #include "tess/error.hpp"
 #include "tools/command.hpp"
+#include "tools/model_options.hpp"
 #include "tools/open_model.hpp"
 #include "tools/outputs.hpp"
 #include "tools/printable.hpp"
@@ -19,11 +21,16 @@
 namespace terratet::tools {
 namespace {
 
-/// For estimating no fault need be prepared: its surface is the barrier.
+bool is_fault(const Surface& surface) {
+    return surface.kind == SurfaceKind::fault;
+}
+
+/// For estimating no surface need be prepared: it is the barrier. Horizons are where they are hard.
 std::vector<Fault> as_barriers(const Site& site) {
+    const bool hard = std::ranges::any_of(site.properties, &Property::hard_horizons);
     std::vector<Fault> faults;
     for (const Surface& surface : site.surfaces) {
-        if (surface.kind == SurfaceKind::fault) {
+        if (is_fault(surface) || (hard && surface.kind == SurfaceKind::horizon)) {
             Fault& fault = faults.emplace_back();
             fault.name = surface.name;
             fault.sheet = surface;
@@ -43,6 +50,7 @@ class Validate final : public Command {
                               "one to try, repeatable; by default natural, idw, kriging, nearest",
                               &estimators_},
                              {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
+                             horizon_option(horizon_),
                              accept_edited_option(accept_edited_),
                              {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
                          }}});
@@ -66,6 +74,12 @@ class Validate final : public Command {
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
             model = input(diagnostics, display.callback());
+            if (!horizon_.empty()) {
+                set_horizons(horizon_, model);  // of a model, another than it was built with
+            }
+            if (models_.empty()) {
+                model.faults = as_barriers(model);
+            }
             const FaultProximity faults = model_proximity(model);
             CrossValidationOptions options;
             options.max_folds = folds_;
@@ -94,7 +108,6 @@ class Validate final : public Command {
         static_cast<Site&>(model) = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
         composite_as_asked(model, site_, diagnostics);
         merge_coincident(model.samples, model.properties);
-        model.faults = as_barriers(model);
         return model;
     }
 
@@ -107,14 +120,15 @@ class Validate final : public Command {
         for (const auto& record : diagnostics.rejected) {
             rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
         }
-        const Json report{{"terratet", version},
-                          {"input",
-                           {{"boreholes", model.boreholes.size()},
-                            {"samples", model.samples.size()},
-                            {"faults", model.faults.size()},
-                            {"rejected", rejected},
-                            {"notes", diagnostics.notes}}},
-                          {"properties", validation_json(model, all)}};
+        const Json report{
+            {"terratet", version},
+            {"input",
+             {{"boreholes", model.boreholes.size()},
+              {"samples", model.samples.size()},
+              {"faults", models_.empty() ? std::ranges::count_if(model.surfaces, is_fault) : std::ssize(model.faults)},
+              {"rejected", rejected},
+              {"notes", diagnostics.notes}}},
+            {"properties", validation_json(model, all)}};
         const std::string text = json_text(report);
         if (run_.report == "-") {
             print(text);
@@ -130,6 +144,7 @@ class Validate final : public Command {
     std::vector<std::string> models_;
     std::vector<std::string> estimators_;
     std::string plot_;
+    std::string horizon_;
     bool accept_edited_ = false;
     std::uint64_t folds_ = 0;
 };

@@ -267,11 +267,7 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "HOW",
               "canonical (default) keeps all samples that fit --lmin; paper deletes as the paper does",
               &a.density},
-             {{"horizon"},
-              "HOW",
-              "soft (default): values run through horizons; hard: horizons bar, as faults do; hard=P,Q for some "
-              "properties",
-              &a.horizon},
+             horizon_option(a.horizon),
              {{"region-name"},
               "X,Y,Z=NAME",
               "what the region (fault block) is called that holds a point",
@@ -338,8 +334,16 @@ void check_model_arguments(const ModelArguments& a) {
     }
 }
 
-void set_horizons(const ModelArguments& a, Site& site) {
-    const HardHorizons hard = parse_horizon(a.horizon);
+Option horizon_option(std::string& horizon) {
+    return {{"horizon"},
+            "HOW",
+            "soft (default): values run through horizons; hard: horizons bar, as faults do; hard=P,Q for some "
+            "properties",
+            &horizon};
+}
+
+void set_horizons(const std::string& horizon, Site& site) {
+    const HardHorizons hard = parse_horizon(horizon);
     for (Property& property : site.properties) {
         property.hard_horizons = hard.all;
     }

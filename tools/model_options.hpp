@@ -48,8 +48,11 @@ std::vector<OptionGroup> model_options(ModelArguments& arguments);
 /// Everything that can be refused before the inputs are read: words, numbers, contradictions. Throws UsageError.
 void check_model_arguments(const ModelArguments& arguments);
 
-/// Notes in the site's properties which of them horizons bar. Throws UsageError for a property there is none of.
-void set_horizons(const ModelArguments& arguments, Site& site);
+Option horizon_option(std::string& horizon);
+
+/// Notes in the site's properties which of them horizons bar. \param horizon  soft, hard, or hard=P,Q. Throws
+/// UsageError for anything else, or a property there is none of.
+void set_horizons(const std::string& horizon, Site& site);
 
 /// In the frame and with the properties of `site`. Throws UsageError: also for a property there is none of.
 BuildOptions build_options(const ModelArguments& arguments, const Site& site);

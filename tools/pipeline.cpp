@@ -57,7 +57,7 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     const auto begin = Clock::now();
     Site site = read_site(site_inputs(site_arguments, run.strict), record.diagnostics, record.counts, progress);
     composite_as_asked(site, site_arguments, record.diagnostics);
-    set_horizons(arguments, site);
+    set_horizons(arguments.horizon, site);
     record.counts.samples = site.samples.size();
     record.seconds["read"] = seconds_since(begin);
 

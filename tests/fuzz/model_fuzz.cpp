@@ -1,15 +1,19 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A model file changed as the bytes say: cells of any type, parts of terratet_meta, rows, the schema, single bytes of
-// the file. Refused with an InputError, or a model whose indices and numbers are in range.
+// A model file changed as the bytes say: cells of any type, rows, parts of terratet_meta and its keys, the schema,
+// pages and single bytes of the file. Refused with an InputError, or a model whose indices and numbers are in range.
+// The file is in memory and has pages of 512 bytes; SQLite, which no sanitizer has seen, takes its memory past
+// AddressSanitizer.
 #include <cpl_vsi.h>
 #include <fuzzer/FuzzedDataProvider.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +24,12 @@
 
 using namespace terratet;
 
+extern "C" {
+void* __libc_malloc(std::size_t);          // NOLINT: glibc's own, which no sanitizer replaces
+void* __libc_realloc(void*, std::size_t);  // NOLINT
+void __libc_free(void*);                   // NOLINT
+}
+
 namespace {
 
 void require(bool holds) {
@@ -28,22 +38,77 @@ void require(bool holds) {
     }
 }
 
+constexpr std::size_t page = 512;
+
+/// Memory with its size in front, straight from the C library.
+namespace plain {
+constexpr std::size_t head = 16;
+
+void* sized(void* block, int size) {
+    if (block == nullptr) {
+        return nullptr;
+    }
+    std::memcpy(block, &size, sizeof size);
+    return static_cast<char*>(block) + head;
+}
+void* start(void* given) {
+    return static_cast<char*>(given) - head;
+}
+void* allocate(int size) {
+    return sized(__libc_malloc(head + static_cast<std::size_t>(size)), size);
+}
+void release(void* given) {
+    if (given != nullptr) {
+        __libc_free(start(given));
+    }
+}
+void* resize(void* given, int size) {
+    return sized(__libc_realloc(start(given), head + static_cast<std::size_t>(size)), size);
+}
+int size_of(void* given) {
+    int size = 0;
+    if (given != nullptr) {
+        std::memcpy(&size, start(given), sizeof size);
+    }
+    return size;
+}
+int rounded(int size) {
+    return (size + 7) & ~7;
+}
+int begin(void*) {
+    return SQLITE_OK;
+}
+void end(void*) {}
+
+sqlite3_mem_methods methods = {allocate, release, resize, size_of, rounded, begin, end, nullptr};
+}  // namespace plain
+
+/// A few rows of everything, in small pages, so that there are inner pages and overflow chains to damage.
 std::string sound_model() {
     std::uint64_t seed = 1;
     Model model;
     do {
         model = testing::random_model(seed++);
-    } while (model.boreholes.size() < 2 || model.samples.size() < 10 || model.faults.empty() ||
-             model.vertices.size() < 20 || model.surfaces.empty() || model.properties.size() < 2 ||
-             model.vertices.size() > 60);
+    } while (model.boreholes.size() < 2 || model.samples.size() < 6 || model.samples.size() > 16 ||
+             model.faults.empty() || model.vertices.size() < 12 || model.vertices.size() > 24 ||
+             model.surfaces.empty() || model.properties.size() < 2 || model.properties.size() > 4 ||
+             !model.samples.any_censored());
     const testing::TemporaryFolder folder;
-    save_model(folder / "m.gpkg", model, {1, "2026-01-02T03:04:05Z", "build", "{}"});
-    std::ifstream file(folder / "m.gpkg", std::ios::binary);
+    const std::string path = folder / "m.gpkg";
+    save_model(path, model, {1, "2026-01-02T03:04:05Z", "build", "{}"});
+    sqlite3* database = nullptr;
+    sqlite3_open(path.c_str(), &database);
+    sqlite3_exec(database, "PRAGMA page_size = 512; VACUUM", nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const char* const tables[] = {
     "samples", "boreholes", "surfaces", "vertices", "terratet_meta", "gpkg_contents", "gpkg_geometry_columns"};
+
+const char* const meta_keys[] = {"format_version", "frame",  "properties", "criteria", "density", "fault_options",
+                                 "regions",        "domain", "estimator",  "counts",   "digest",  "other"};
 
 const char* const schema_changes[] = {
     "ALTER TABLE samples ADD COLUMN g AS (1)",
@@ -85,16 +150,19 @@ class Changes {
     Changes& operator=(const Changes&) = delete;
 
     void make_one(FuzzedDataProvider& data) {
-        switch (data.ConsumeIntegralInRange(0, 7)) {
+        switch (data.ConsumeIntegralInRange(0, 9)) {
             case 0:
                 run(data.PickValueInArray(schema_changes));
                 break;
             case 1:
-                run(std::string("DELETE FROM ") + data.PickValueInArray(tables) +
-                    " WHERE fid = " + std::to_string(data.ConsumeIntegralInRange(1, 40)));
+                change_row(data);
                 break;
             case 2:
+                run(std::string("UPDATE terratet_meta SET key = '") + data.PickValueInArray(meta_keys) +
+                    "' WHERE key = '" + data.PickValueInArray(meta_keys) + "'");
+                break;
             case 3:
+            case 4:
                 change_meta(data);
                 break;
             default:
@@ -113,16 +181,41 @@ class Changes {
   private:
     void run(const std::string& sql) { sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr); }
 
-    void change_cell(FuzzedDataProvider& data) {
+    static std::string row(FuzzedDataProvider& data) { return std::to_string(data.ConsumeIntegralInRange(1, 25)); }
+
+    /// Deleted, or numbered otherwise.
+    void change_row(FuzzedDataProvider& data) {
         const std::string table = data.PickValueInArray(tables);
+        if (data.ConsumeBool()) {
+            run("DELETE FROM " + table + " WHERE rowid = " + row(data));
+        } else {
+            const std::string number = row(data);
+            run("UPDATE OR REPLACE " + table + " SET rowid = " + number + " WHERE rowid = " + row(data));
+        }
+    }
+
+    std::string column(const std::string& table, FuzzedDataProvider& data) {
         sqlite3_stmt* columns = nullptr;
         sqlite3_prepare_v2(database_, ("SELECT * FROM " + table + " LIMIT 1").c_str(), -1, &columns, nullptr);
         const int count = sqlite3_column_count(columns);
-        const std::string column =
-            count == 0 ? "fid" : sqlite3_column_name(columns, data.ConsumeIntegralInRange(0, count - 1));
+        std::string name = count == 0 ? "fid" : sqlite3_column_name(columns, data.ConsumeIntegralInRange(0, count - 1));
         sqlite3_finalize(columns);
+        return name;
+    }
+
+    /// Set to anything, or to what another row or column holds.
+    void change_cell(FuzzedDataProvider& data) {
+        const std::string table = data.PickValueInArray(tables);
+        const std::string column = this->column(table, data);
+        if (data.ConsumeIntegralInRange(0, 3) == 0) {
+            const std::string other = this->column(table, data);
+            const std::string number = row(data);
+            run("UPDATE " + table + " SET \"" + column + "\" = (SELECT \"" + other + "\" FROM " + table +
+                " WHERE rowid = " + number + ") WHERE rowid = " + row(data));
+            return;
+        }
         sqlite3_stmt* update = nullptr;
-        const std::string where = " WHERE rowid = " + std::to_string(data.ConsumeIntegralInRange(1, 40));
+        const std::string where = " WHERE rowid = " + row(data);
         if (sqlite3_prepare_v2(database_, ("UPDATE " + table + " SET \"" + column + "\" = ?" + where).c_str(), -1,
                                &update, nullptr) == SQLITE_OK) {
             bind(update, data);
@@ -242,10 +335,46 @@ void check_model(const Model& model) {
 
 }  // namespace
 
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+    sqlite3_config(SQLITE_CONFIG_SINGLETHREAD);
+    sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
+    sqlite3_config(SQLITE_CONFIG_MALLOC, &plain::methods);
+    return 0;
+}
+
+namespace {
+
+/// Bytes, whole pages over others, and the end cut off.
+void change_file(std::string& file, FuzzedDataProvider& data) {
+    const auto at = [&](std::size_t end) { return data.ConsumeIntegralInRange<std::size_t>(0, end); };
+    for (int left = data.ConsumeIntegralInRange(0, 20) - 12; left > 0 && file.size() >= 2 * page; --left) {
+        switch (data.ConsumeIntegralInRange(0, 9)) {
+            case 0: {
+                const std::size_t pages = file.size() / page;
+                const std::size_t from = at(pages - 1), to = at(pages - 1);
+                std::memmove(&file[to * page], &file[from * page], page);
+                break;
+            }
+            case 1:
+                file.resize(file.size() - at(file.size() / page) * page);
+                break;
+            case 2:  // of the file's header, or of a page's
+                file[data.ConsumeBool() ? at(99) : at(file.size() / page - 1) * page + at(11)] =
+                    data.ConsumeIntegral<char>();
+                break;
+            default:
+                file[at(file.size() - 1)] = data.ConsumeIntegral<char>();
+        }
+    }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     static const std::string sound = sound_model();
     FuzzedDataProvider data(bytes, size);
-    const bool accept_edited = data.ConsumeIntegralInRange(0, 7) > 0;
+    const bool accept_edited = data.ConsumeIntegralInRange(0, 15) > 0;
+    const bool journal = data.ConsumeIntegralInRange(0, 15) == 0;
     std::string file;
     {
         Changes changes(sound);
@@ -254,14 +383,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         }
         file = changes.bytes();
     }
-    for (int left = data.ConsumeIntegralInRange(0, 20) - 12; left > 0 && !file.empty(); --left) {
-        file[data.ConsumeIntegralInRange<std::size_t>(0, file.size() - 1)] = data.ConsumeIntegral<char>();
-    }
+    change_file(file, data);
     const char* const path = "/vsimem/fuzz.gpkg";
     VSIFCloseL(VSIFileFromMemBuffer(path, reinterpret_cast<GByte*>(file.data()), file.size(), FALSE));
     try {
-        if (is_model(path)) {
-            check_model(load_model(path, {.accept_edited = accept_edited}));
+        check_model(load_model(path, {.accept_edited = accept_edited}));
+        if (journal && is_model(path)) {
             load_journal(path);
         }
     } catch (const InputError&) {

@@ -286,6 +286,22 @@ TEST_CASE("E2: round a fault's end estimates with slopes are continuous") {
     }
 }
 
+TEST_CASE("E2: beside a fault or a hard horizon that ends, the plane of each side is recovered") {
+    const Field sides = [](const Vec3& p) { return p.x > 500 ? 40 - 2 * p.x + p.z - p.y : 3 + p.x + p.y; };
+    Model model = model_of(uniform_sites(1500, 97), sides);
+    model.properties[0].hard_horizons = true;
+    model.faults = {half_fault()};
+    const auto places = places_in({{440, 50, 250}, {560, 200, 750}}, 300, 98);
+    for (const SurfaceKind kind : {SurfaceKind::fault, SurfaceKind::horizon}) {
+        model.faults[0].sheet.kind = kind;
+        const FaultProximity proximity = model_proximity(model);
+        for (const auto& spec : family) {
+            CAPTURE(to_string(kind), spec);
+            CHECK(worst_error(values_at(model, proximity, spec, places), places, sides) <= 1e-9 * 4000);
+        }
+    }
+}
+
 TEST_CASE("What slopes add keeps within the range of the property's values, and fades away from the samples") {
     const std::vector<Fault> faults = {half_fault()};
     const FaultProximity proximity(faults);

@@ -228,6 +228,9 @@ TEST_CASE("Every number of terratet_meta is held to its range, naming the key an
     meta("properties", "[1].scale", "\"log10\"");
     CHECK_THAT(attack.message("UPDATE terratet_meta SET value = 'magic' WHERE key = 'estimator'"),
                Contains("key estimator") && Contains("'magic' is not known"));
+    CHECK_THAT(attack.message("UPDATE terratet_meta SET value = 'idw' || char(10) || "
+                              "'samples:lowest=0:highest=1:reach=-1 of Cu' WHERE key = 'estimator'"),
+               Contains("key estimator") && Contains("reach=-1' is nothing that samples can have"));
 }
 
 TEST_CASE("Every number of the layers is held to its range, naming layer, row, column and what was found") {
@@ -243,7 +246,9 @@ TEST_CASE("Every number of the layers is held to its range, naming layer, row, c
     CHECK_THAT(row("samples", "depth", "1e300"), Contains("column depth holds 1e+300"));
     CHECK_THAT(row("samples", "length", "-3"), Contains("column length holds -3"));
     row("samples", "Cu", "9e999");
-    row("samples", "hole", "99");
+    for (const char* hole : {"99", "0", "-1", "-9223372036854775807 - 1", "9223372036854775807"}) {
+        CHECK_THAT(row("samples", "hole", hole), Contains("its borehole is not in layer boreholes"));
+    }
     CHECK_THAT(row("samples", "Cu", "'abc'"), Contains("column `Cu` holds something of another type"));
     CHECK_THAT(row("samples", "borehole", "x'00ff'"), Contains("column `borehole`"));
     CHECK_THAT(row("vertices", "id", "1.5"), Contains("column `id`"));

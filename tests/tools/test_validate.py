@@ -48,6 +48,36 @@ class Validate(Case):
         with_fault = self.succeed("validate", *SITE, *FAST, "--faults", TWIN / "fracture.ts").stdout
         self.assertNotEqual(of_model, with_fault)
 
+    def test_a_hard_horizon_parts_what_is_left_out_from_beyond_it(self):
+        """1 above a contact and 10 below: without the other side every hole is found again exactly."""
+        holes = [(x, y) for x in range(0, 500, 100) for y in range(0, 500, 100)]
+        rows = ["x,y,z,K,rock"] + [f"{x},{y},{z},{1 if z > -50.5 else 10},{'clay' if z > -50.5 else 'sand'}"
+                                   for x, y in holes for z in range(-100, 0, 4)]
+        (self.folder / "samples.csv").write_text("\n".join(rows) + "\n")
+        (self.folder / "contact.ts").write_text(
+            "GOCAD TSurf 1\nHEADER {\nname:contact\n}\nTFACE\nVRTX 1 -900 -900 -50.5\nVRTX 2 1400 -900 -50.5\n"
+            "VRTX 3 1400 1400 -50.5\nVRTX 4 -900 1400 -50.5\nTRGL 1 2 3\nTRGL 1 3 4\nEND\n")
+        site = ["--samples", "samples.csv", "--surface", "contact.ts", "-s_srs", "EPSG:3067",
+                "--property", "K", "--property", "rock:categorical"]
+
+        def scores(*arguments):
+            estimators = ["--estimator", "natural", "--estimator", "idw"]
+            report = json.loads(self.succeed("validate", *arguments, *estimators, "--report", "-").stdout)
+            self.assertEqual(report["input"]["faults"], 0)
+            k, rock = (p["estimators"] for p in report["properties"])
+            return [e["rmse"] for e in k], [e["accuracy"] for e in rock]
+
+        for soft in (scores(*site), scores(*site, "--horizon", "soft")):
+            self.assertGreater(min(soft[0]), 0.1)
+            self.assertLess(max(soft[1]), 1)
+        hard = scores(*site, "--horizon", "hard")
+        self.assertLess(max(hard[0]), 1e-9)
+        self.assertEqual(hard[1], [1, 1])
+        mixed = scores(*site, "--horizon", "hard=rock")
+        self.assertEqual((mixed[0], mixed[1]), (soft[0], hard[1]))
+        self.fail_with(2, "validate", *site, "--horizon", "hard=Au", saying="there is no property 'Au'")
+        self.fail_with(2, "validate", *site, "--horizon", "firm", saying="firm")
+
     def test_what_cannot_be_done_is_said(self):
         self.fail_with(2, "validate", *SITE, "--estimator", "krigging", saying="kriging")
         self.fail_with(2, "validate", *SITE, "--estimator", "kriging:range=-1", saying="above 0")

@@ -5,6 +5,7 @@
 #include "interp/sphere_tree.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace terratet {
 namespace {
@@ -85,12 +86,25 @@ void Cavity::find_by_groups(const CompactDelaunay& mesh, const Vec3& q) {
     for (const std::int32_t id : cells) {
         inside_.insert(id);
     }
+    std::size_t grouped = 0;
+    for (const std::uint32_t group : groups) {
+        grouped += mesh.sphere_tree().cells(group).size();
+    }
+    // On a sphere most cells are single ones, and most of those have neighbours in groups.
+    const bool all_known = grouped < cells.size();
+    for (const std::uint32_t group : all_known ? std::span(groups) : std::span<std::uint32_t>()) {
+        for (const std::int32_t id : mesh.sphere_tree().cells(group)) {
+            inside_.insert(id);
+        }
+    }
+    const auto is_inside = [&](std::int32_t id) {
+        return inside_.contains(id) || (!all_known && mesh.in_conflict(mesh.cells()[static_cast<std::size_t>(id)], q));
+    };
     for (const std::int32_t id : cells) {
         const auto& cell = mesh.cells()[static_cast<std::size_t>(id)];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t next = cell.neighbour[k];
-            if (next < 0 ||
-                (!inside_.contains(next) && !mesh.in_conflict(mesh.cells()[static_cast<std::size_t>(next)], q))) {
+            if (next < 0 || !is_inside(next)) {
                 add_facet(mesh, id, k);
             }
         }

@@ -26,9 +26,9 @@ using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
-// Half the side of the ghosts' cube, in diagonals of the sites' box. Farther, and the volumes of cells at the hull lose
-// digits; nearer, and more places see a ghost.
-constexpr double ghost_distance = 3;
+// Half the side of the ghosts' cube, in diagonals of the sites' box; the box takes up 0.5 at most. Farther, and places
+// outside the hull have more neighbours (on planes in proportion); nearer, and more places inside see a ghost.
+constexpr double ghost_distance = 0.6;
 constexpr std::size_t sites_per_bin = 4;
 
 Kernel::Point_3 exact(const Vec3& p) {
@@ -53,16 +53,15 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q, const Vec3&
 
 CompactDelaunay::CompactDelaunay(std::span<const Vec3> sites) : points_(sites.begin(), sites.end()) {
     assert(!sites.empty());
-    const Box3 box = bounding_box(sites);
-    const double diagonal = box.diagonal() > 0 ? box.diagonal() : 1;
+    box_ = bounding_box(sites);
+    const double diagonal = box_.diagonal() > 0 ? box_.diagonal() : 1;
     const Vec3 half = ghost_distance * Vec3{diagonal, diagonal, diagonal};
-    cube_ = {box.center() - half, box.center() + half};
+    cube_ = {box_.center() - half, box_.center() + half};
     for (int corner = 0; corner < ghost_count; ++corner) {
         points_.push_back({(corner & 1 ? cube_.hi : cube_.lo).x, (corner & 2 ? cube_.hi : cube_.lo).y,
                            (corner & 4 ? cube_.hi : cube_.lo).z});
     }
     copy_tessellation();
-    bins_box_ = box;
     fill_starts();
 }
 
@@ -123,7 +122,7 @@ void CompactDelaunay::copy_tessellation() {
 }
 
 void CompactDelaunay::fill_starts() {
-    const Vec3 size = bins_box_.size();
+    const Vec3 size = box_.size();
     const double longest = std::max({size.x, size.y, size.z});
     const auto wanted = static_cast<double>(1 + points_.size() / sites_per_bin);
     // Cubic bins, smaller where the box is flat or thin, as there is but one layer of them.
@@ -139,7 +138,7 @@ void CompactDelaunay::fill_starts() {
         static_cast<std::size_t>(bins_[0]) * static_cast<std::size_t>(bins_[1]) * static_cast<std::size_t>(bins_[2]),
         0);
     const auto center = [&](std::int32_t i, int axis) {
-        return bins_box_.lo[axis] + (i + 0.5) * size[axis] / bins_[static_cast<std::size_t>(axis)];
+        return box_.lo[axis] + (i + 0.5) * size[axis] / bins_[static_cast<std::size_t>(axis)];
     };
     // Boustrophedon, so that each walk starts next door.
     std::int32_t cell = 0;
@@ -161,9 +160,10 @@ std::size_t CompactDelaunay::bin(const Vec3& q) const {
     std::size_t index = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const std::int32_t n = bins_[static_cast<std::size_t>(axis)];
-        const double extent = bins_box_.hi[axis] - bins_box_.lo[axis];
-        const double at = extent > 0 ? (q[axis] - bins_box_.lo[axis]) / extent * n : 0;
-        index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(std::clamp(at, 0.0, n - 1.0));
+        const double extent = box_.hi[axis] - box_.lo[axis];
+        const double at = extent > 0 ? (q[axis] - box_.lo[axis]) / extent * n : 0;
+        // In this order 0 for what is no number.
+        index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(std::min(std::max(0.0, at), n - 1.0));
     }
     return index;
 }

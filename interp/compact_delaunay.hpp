@@ -6,8 +6,8 @@
 /// Morton order, circumspheres stored. All answers are exact: doubles decide where their error bound allows it, CGAL's
 /// exact predicates elsewhere.
 ///
-/// Eight ghosts, the corners of a cube far outside, belong to it. So it has cells for any sites, be it one, and every
-/// place within reach (strictly inside the cube) lies in a finite cell and has a bounded Voronoi cell.
+/// Eight ghosts, the corners of a cube around the sites' box, belong to it. So it has cells for any sites, be it one,
+/// and every place within reach (strictly inside the cube) lies in a finite cell and has a bounded Voronoi cell.
 
 #include <array>
 #include <cassert>
@@ -68,6 +68,9 @@ class CompactDelaunay {
     [[nodiscard]] std::int32_t site_count() const { return static_cast<std::int32_t>(points_.size()) - ghost_count; }
     [[nodiscard]] bool is_ghost(std::int32_t vertex) const { return vertex >= site_count(); }
 
+    /// The sites' box, well within reach.
+    [[nodiscard]] const Box3& box() const { return box_; }
+
     [[nodiscard]] bool within_reach(const Vec3& q) const {
         return q.x > cube_.lo.x && q.y > cube_.lo.y && q.z > cube_.lo.z && q.x < cube_.hi.x && q.y < cube_.hi.y &&
                q.z < cube_.hi.z;
@@ -112,9 +115,9 @@ class CompactDelaunay {
     HugePageVector<Cell> cells_;
     HugePageVector<Parts> parts_;  ///< of each cell
 
-    Box3 bins_box_;
+    Box3 box_;
     std::array<std::int32_t, 3> bins_{};
-    std::vector<std::int32_t> starts_;  ///< for each bin of a regular grid, the cell at its centre
+    std::vector<std::int32_t> starts_;  ///< for each bin of a regular grid over the box, the cell at its centre
 
     mutable std::once_flag tree_wanted_;
     mutable std::unique_ptr<const SphereTree> tree_;

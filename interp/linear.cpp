@@ -72,7 +72,7 @@ std::shared_ptr<const Slopes> LinearInCells::slopes(std::vector<std::span<const 
 
 void LinearInCells::estimate(const Vec3& place, std::int32_t& start, Weights& out) const {
     const SiteQuery query = sites_.query(place);
-    const Vec3& q = query.at;
+    const Vec3& q = query.within;
     const auto at = sites_.locate(query, start, out);
     if (at.cell < 0) {
         return;

@@ -119,7 +119,7 @@ struct NaturalNeighbour::Impl {
         if (at.cell < 0) {
             return;
         }
-        const Vec3& q = query.at;
+        const Vec3& q = query.within;
         const CompactDelaunay& mesh = sites.tessellation();
         work.cavity.find(mesh, q, at);
         if (!shares_in_doubles(mesh, q, options.weighting, work)) {
@@ -128,13 +128,14 @@ struct NaturalNeighbour::Impl {
         }
         sites.weigh(query, work.cavity.vertices, work.shares, out);
         if (gradients && out.terms.size() > 1) {
-            add_gradients(q, work, out);
+            add_gradients(query, work, out);
         }
     }
 
     /// Sibson's C1 estimate: (α Z + β ξ) / (α + β), where Z = Σ λz is the plain estimate, ξ the mean of the sites'
     /// linear fields ζ with weights λ/d, α = Σ λd / Σ λ/d and β = Σ λd².
-    void add_gradients(const Vec3& q, Workspace& work, Weights& out) const {
+    void add_gradients(const SiteQuery& query, Workspace& work, Weights& out) const {
+        const Vec3& q = query.within;
         const auto points = sites.tessellation().points();
         double by_distance = 0, times_distance = 0, beta = 0;
         for (const auto& [site, weight] : out.terms) {
@@ -146,7 +147,8 @@ struct NaturalNeighbour::Impl {
         const double alpha = times_distance / by_distance;
         const double part = beta / (alpha + beta) * (1 - out.beyond);  // of ξ
 
-        Vec3 off = (1 - part) * out.lever;  // of Z, then of ξ too
+        const Vec3 away = query.at - query.within;
+        Vec3 off = (1 - part) * (out.lever - away);  // of Z, then of ξ too
         double farthest = 0;
         work.number.clear(points.size());
         work.terms.clear();
@@ -174,7 +176,7 @@ struct NaturalNeighbour::Impl {
             add(site, own);
         }
         // Where all gradients are determined the mean of the linear fields is off by rounding alone.
-        out.lever = out.hidden > 0 || length(off) > rounding * farthest ? off : Vec3{};
+        out.lever = out.hidden > 0 || length(off) > rounding * farthest ? off + away : away;
         if (out.lever != Vec3{}) {
             out.slope_terms = out.terms;
         }

@@ -15,8 +15,9 @@
 /// estimate's gradient continuous at the sites as well, and reproduce spherical quadratics (a + b·x + c|x|²) inside.
 /// Weights may be negative and estimates leave the values' range. The gradients' part fades with the ghosts' share.
 ///
-/// Eight ghost sites, three diameters outside, make every query bounded. Their share (Weights::beyond) is left out and
-/// the rest renormalised. Beyond the ghosts, or where only ghosts are neighbours: the nearest visible site.
+/// Eight ghost sites around the sites' box make every query bounded. Their share (Weights::beyond) is left out and the
+/// rest renormalised. A place beyond the box has the shares of the nearest place of the box. Where only ghosts are
+/// neighbours: the nearest visible site.
 ///
 /// Faults: a neighbour's weight is multiplied by how freely the query sees it (FaultProximity::openness), 0 where a
 /// sheet is in the way, and the rest renormalised; so nothing across a fault counts, and estimates are continuous round

@@ -3,6 +3,7 @@
 #include "interp/site_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -59,23 +60,24 @@ double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {
 CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& start, Weights& out) const {
     constexpr CompactDelaunay::Location answered{-1, false};
     out.clear();
-    if (!mesh_.within_reach(q.at)) {
+    if (!is_finite(q.at)) {
         out.beyond = 1;
-        if (!is_finite(q.at)) {
-            return answered;
-        }
-        nearest_visible(q, out);
         return answered;
     }
-    const auto at = mesh_.locate(q.at, start);
+    const auto at = mesh_.locate(q.within, start);
     start = at.cell;
     if (!at.strictly_inside) {
         for (const std::int32_t v : mesh_.cells()[static_cast<std::size_t>(at.cell)].vertex) {
-            if (mesh_.points()[static_cast<std::size_t>(v)] == q.at) {
+            if (mesh_.points()[static_cast<std::size_t>(v)] != q.within) {
+                continue;
+            }
+            if (q.within == q.at) {
                 out.terms = {{static_cast<std::uint32_t>(v), 1.0}};
                 out.distance = 0;
-                return answered;
+            } else {
+                weigh(q, std::array{v}, std::array{1.0}, out);
             }
+            return answered;
         }
     }
     return at;
@@ -111,11 +113,12 @@ void SiteMesh::weigh(const SiteQuery& q, std::span<const std::int32_t> vertices,
         return;
     }
     normalise(out.terms);
+    const bool has_lever = out.hidden > 0 || q.within != q.at;
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& [site, weight] : out.terms) {
         const Vec3 away = q.at - mesh_.points()[site];
         nearest = std::min(nearest, squared_length(away));
-        if (out.hidden > 0) {
+        if (has_lever) {
             out.lever = out.lever + weight * away;
         }
     }

@@ -5,6 +5,9 @@
 /// What the estimators that read the sites' Delaunay tessellation share: the sites in Morton order, their tessellation,
 /// the faults, and the way from shares of sites and ghosts to weights of visible sites.
 ///
+/// Beyond the sites' box a place has the shares of the nearest place of the box: neighbours near by, few of them, and
+/// continuous everywhere; what is hidden, the lever and the distance are its own.
+///
 /// With an anisotropy everything is done in its metric's coordinates, ghosts and extrapolation as well, but for what
 /// faults hide: sight is along straight lines either way, and faults are where they are.
 
@@ -22,6 +25,7 @@ namespace terratet {
 struct SiteQuery {
     Vec3 place;
     Vec3 at;
+    Vec3 within;  ///< the nearest place of the sites' box, whose shares it has
 };
 
 class SiteMesh {
@@ -33,7 +37,10 @@ class SiteMesh {
     SiteMesh& operator=(const SiteMesh&) = delete;
 
     [[nodiscard]] const CompactDelaunay& tessellation() const { return mesh_; }
-    [[nodiscard]] SiteQuery query(const Vec3& place) const { return {place, index_.metric()(place)}; }
+    [[nodiscard]] SiteQuery query(const Vec3& place) const {
+        const Vec3 at = index_.metric()(place);
+        return {place, at, mesh_.box().clamped(at)};
+    }
     /// The barriers; null for none.
     [[nodiscard]] const FaultProximity* faults() const { return faults_; }
 
@@ -43,7 +50,7 @@ class SiteMesh {
     }
 
     /// A cell near a place to start a walk from.
-    [[nodiscard]] std::int32_t start_near(const Vec3& place) const { return mesh_.start_near(query(place).at); }
+    [[nodiscard]] std::int32_t start_near(const Vec3& place) const { return mesh_.start_near(query(place).within); }
 
     /// Of a site of the tessellation.
     [[nodiscard]] const Vec3& place(std::int32_t vertex) const {
@@ -57,8 +64,8 @@ class SiteMesh {
     /// 0 where a fault is in the way, 1 where none is near it (FaultProximity::openness).
     [[nodiscard]] double openness(const Vec3& place, std::int32_t vertex) const;
 
-    /// The cell that contains q, or −1 when `out` holds the answer already: on a site, beyond the ghosts' cube (the
-    /// nearest visible site), and where q is not finite (no value). \param start  a cell to walk from; where the walk
+    /// The cell that contains q.within, or −1 when `out` holds the answer already: where that is a site, and where q is
+    /// not finite (no value). \param start  a cell to walk from; where the walk
     /// ended on return. `out` is cleared.
     CompactDelaunay::Location locate(const SiteQuery& q, std::int32_t& start, Weights& out) const;
 

@@ -28,7 +28,7 @@
 
 #include "interp/morton.hpp"
 #include "interp/natural_neighbour.hpp"
-#include "sites.hpp"
+#include "regular_sites.hpp"
 #include "timing.hpp"
 
 using namespace terratet;
@@ -167,79 +167,36 @@ void threads(const std::vector<Vec3>& sites, const std::vector<Vec3>& places) {
         sites.size(), runs, count / wall[0] / 1000, count / wall[1] / 1000, wall[0] / wall[1], cpu[1] / cpu[0]);
 }
 
-struct Shape {
-    const char* name;
-    std::vector<Vec3> sites;
-};
-
-std::vector<Vec3> grid_sites(std::size_t nx, std::size_t ny, std::size_t nz, const Vec3& step) {
-    std::vector<Vec3> sites;
-    for (std::size_t i = 0; i < nx; ++i) {
-        for (std::size_t j = 0; j < ny; ++j) {
-            for (std::size_t k = 0; k < nz; ++k) {
-                sites.push_back({double(i) * step.x, double(j) * step.y, double(k) * step.z});
-            }
-        }
-    }
-    return sites;
-}
-
-/// Steps of 10; of the spheres all integer points at one distance.
-std::vector<Shape> shapes(std::size_t count) {
-    const auto n = static_cast<double>(count);
-    const auto cube = static_cast<std::size_t>(std::lround(std::cbrt(n)));
-    const auto square = static_cast<std::size_t>(std::lround(std::sqrt(n)));
-    const auto layer = static_cast<std::size_t>(std::lround(std::sqrt(n / 5)));
-    return {{"lattice", grid_sites(cube, cube, cube, {10, 10, 10})},
-            {"plane", grid_sites(square, square, 1, {10, 10, 10})},
-            {"line", grid_sites(count, 1, 1, {10, 10, 10})},
-            {"five layers", grid_sites(layer, layer, 5, {10, 10, 37})},
-            {"one sphere", testing::cospherical_sites(count > 2000 ? 50'006 : 5'006)}};
-}
-
-/// In turns all over the box, at half steps, and up to four steps beyond.
-std::vector<Vec3> places_by(const std::vector<Vec3>& sites, std::size_t count) {
-    testing::Random random(3);
-    const Box3 box = bounding_box(sites), grown = box.grown(40);
-    std::vector<Vec3> places;
-    for (std::size_t i = 0; i < count; ++i) {
-        Vec3 p = random.in(i % 3 == 2 ? grown : box);
-        if (i % 3 == 1) {
-            p = {5 * std::round(p.x / 5), 5 * std::round(p.y / 5), 5 * std::round(p.z / 5)};
-        }
-        places.push_back(p);
-    }
-    return morton_sorted(places);
-}
-
 void regular(std::size_t count) {
     const tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
     std::printf(
         "| samples | number | build, s | jittered | ratio | µs a place | jittered | ratio | fallbacks |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
-    for (const Shape& shape : shapes(count)) {
+    for (const auto& shape : testing::regular_sites(count)) {
         double build[2], place[2];
         std::size_t fallbacks = 0;
         constexpr std::size_t place_count = 1500;
         for (const int jittered : {0, 1}) {
-            auto sites = shape.sites;
-            testing::Random random(5);
-            for (auto& p : sites) {
-                p = p + jittered * random.in({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
-            }
+            const auto sites = jittered ? testing::jittered(shape.sites) : shape.sites;
             const double start = cpu_s();
             const NaturalNeighbour estimator(sites, nullptr);
             build[jittered] = cpu_s() - start;
-            const Own own = own_rate(estimator, places_by(shape.sites, place_count), block, cpu_s);
+            const auto places = morton_sorted(testing::places_around(shape.sites, place_count));
+            const Own own = own_rate(estimator, places, block, cpu_s);
             place[jittered] = 1e6 / own.rate;
             fallbacks = jittered ? fallbacks : own.fallbacks;
         }
-        std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.1f | %.1f | **%.2f** | %zu of %zu |\n", shape.name,
+        std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.1f | %.1f | **%.2f** | %zu of %zu |\n", shape.name.c_str(),
                     shape.sites.size(), build[0], build[1], build[0] / build[1], place[0], place[1],
                     place[0] / place[1], fallbacks, place_count);
         std::fflush(stdout);
     }
 }
+
+struct Shape {
+    const char* name;
+    std::vector<Vec3> sites;
+};
 
 /// Nearly vertical wells on a square grid.
 std::vector<Vec3> wells_on_grid(int side, double apart) {

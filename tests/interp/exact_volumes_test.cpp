@@ -213,7 +213,7 @@ TEST_CASE("E3: no shape of samples ends in a signal, with any natural estimator,
                     sum += term.weight;
                 }
                 worst_sum = std::max(worst_sum, std::abs(sum - 1));
-                if (weights[i].beyond == 0) {
+                if (weights[i].lever == Vec3{}) {
                     worst_mean = std::max(worst_mean, off_mean(weights[i], shape.sites, places[i]));
                 }
             }

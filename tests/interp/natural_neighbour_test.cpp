@@ -160,9 +160,8 @@ TEST_CASE("Natural neighbour weights sum to 1, are not negative and give the que
         CHECK(worst_sum <= 1e-13);
         CHECK(worst_weight >= 0);
         CHECK(worst_mean <= 1e-9);
-        CHECK(inside > places.size() / 2);
-        // A hair inside a plane of tied sites volumes are far from what doubles hold.
-        CHECK(fallbacks <= (name == "one sphere" ? places.size() / 4 : places.size() / 100));
+        CHECK(inside > places.size() / 3);  // a sphere fills half of its box, and near its surface ghosts have a share
+        CHECK(fallbacks <= places.size() / 100);
     }
 }
 
@@ -177,7 +176,6 @@ TEST_CASE("On a site the weight is that site's alone, and a hair off it nearly s
             p = p + Vec3{hair, 0, -hair};
         }
         const auto near = weights_at(estimator, off);
-        std::size_t fallbacks = 0;
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
             REQUIRE(on[i].terms.size() == 1);
             REQUIRE(on[i].terms.front().site == i);
@@ -187,10 +185,6 @@ TEST_CASE("On a site the weight is that site's alone, and a hair off it nearly s
                                           [i](const SiteWeight& term) { return term.site == i; });
             REQUIRE(own != near[i].terms.end());
             REQUIRE(own->weight > 1 - 1e-8);
-            fallbacks += near[i].fallback;
-        }
-        if (name == "one sphere") {
-            CHECK(fallbacks > 0);  // doubles are off by 1e-4 here
         }
     }
 }
@@ -294,8 +288,8 @@ TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums ar
     for (int w = 0; w < 4; ++w) {
         const Vec3 collar{100. * (w % 2), 110. * (w / 2), 0};
         const Vec3 lean{0.05 * (w - 1), 0.08 * (w == 2) - 0.03, -1};
-        for (int i = 0; i < 120; ++i) {
-            sites.push_back(collar + 4.0 * i * lean + Vec3{0, 0, 0.01 * ((7 * i) % 5)});
+        for (int i = 0; i < 400; ++i) {
+            sites.push_back(collar + double(i) * lean + Vec3{0, 0, 0.01 * ((7 * i) % 5)});
         }
     }
     std::vector<Vec3> sorted;
@@ -307,7 +301,7 @@ TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums ar
     Random random(81);
     std::size_t by_groups = 0;
     for (int i = 0; i < 60; ++i) {
-        const Vec3 q = random.in(bounding_box(sites).grown(i % 2 ? 200 : 0));
+        const Vec3 q = random.in(bounding_box(sites).grown(i % 2 ? 40 : 0));
         Cavity cavity;
         cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
         by_groups += !cavity.groups.empty();
@@ -321,7 +315,7 @@ TEST_CASE("A conflict zone found by groups of cells is the zone, and its sums ar
         }
         REQUIRE(found == expected);
         REQUIRE(cavity.facets.size() == 2 * cavity.vertices.size() - 4);  // its boundary is a sphere
-        if (i < 4) {
+        if (i < 4 && i % 2 == 0) {  // within the sites' box, or its nearest place would be asked for
             auto own = weights_at(estimator, {q}).front();
             REQUIRE(!own.fallback);
             for (auto& term : own.terms) {
@@ -424,11 +418,11 @@ TEST_CASE("Few, collinear and coplanar sites give the answers symmetry asks for"
         const auto near = at({{5, 5, 5}}, {5.5, 5, 5});
         REQUIRE(near.terms.size() == 1);
         CHECK(near.terms[0].weight == 1);
-        CHECK(near.beyond > 0);
+        CHECK(near.distance == 0.5);
         const auto far = at({{5, 5, 5}}, {500, 5, 5});
         REQUIRE(far.terms.size() == 1);
-        CHECK(far.beyond == 1);
-        CHECK(far.fallback);
+        CHECK(far.terms[0].weight == 1);
+        CHECK(far.distance == 495);
     }
     SECTION("between two sites both count the same") {
         const auto w = at({{0, 0, 0}, {2, 0, 0}}, {1, 0, 0});
@@ -445,7 +439,7 @@ TEST_CASE("Few, collinear and coplanar sites give the answers symmetry asks for"
                               at({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 0, 0})}) {
             for (const auto& term : w.terms) {
                 // The ghosts' cube shares only the symmetry of the last two.
-                CHECK(term.weight == Approx(1.0 / static_cast<double>(w.terms.size())).margin(1e-2));
+                CHECK(term.weight == Approx(1.0 / static_cast<double>(w.terms.size())).margin(4e-2));
             }
         }
     }
@@ -462,14 +456,19 @@ TEST_CASE("Few, collinear and coplanar sites give the answers symmetry asks for"
         CHECK(next > 0.95);
         CHECK(sum_of(w) == Approx(1).margin(1e-13));
     }
-    SECTION("beyond the ghosts: the nearest site, all of it extrapolated") {
-        const auto w = at(uniform_sites(50), {1e7, 0, 0});
-        REQUIRE(w.terms.size() == 1);
-        CHECK(w.beyond == 1);
+    SECTION("however far beyond: what the nearest place of the sites' box has, and the way from there") {
+        const auto sites = uniform_sites(50);
+        const Vec3 far{1e7, 300, -1e6};
+        const auto w = at(sites, far);
+        const auto nearest = at(sites, bounding_box(sites).clamped(far));
+        REQUIRE(w.terms.size() == nearest.terms.size());
+        CHECK(largest_difference(w.terms, nearest.terms) == 0);
+        CHECK(length(mean_of(w, sites, far) + w.lever) <= 1e-6);
+        CHECK(w.distance > 1e6);
     }
 }
 
-TEST_CASE("The extrapolation is 0 inside, grows outwards, and stays within 0 and 1") {
+TEST_CASE("The ghosts' share is 0 inside and grows outwards, as far as the sites' box goes") {
     const auto sites = uniform_sites(2000, 61);
     std::vector<Vec3> outwards;
     for (int i = 0; i <= 40; ++i) {
@@ -482,5 +481,5 @@ TEST_CASE("The extrapolation is 0 inside, grows outwards, and stays within 0 and
         CHECK(weights[i].beyond <= 1);
         CHECK(sum_of(weights[i]) == Approx(1).margin(1e-13));
     }
-    CHECK(weights.back().beyond > 0.1);
+    CHECK(weights.back().beyond > 0);
 }

@@ -3,14 +3,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How often the truth lies within what `terratet query` states, at holes that were held out: docs/estimators.md.
 
-    coverage.py TERRATET synthetic|trend|grade|flat [options]
+    coverage.py TERRATET synthetic|trend|grade|flat|faulted [options]
     coverage.py TERRATET COLLAR SURVEY LOG --property P --crs CRS [options]
 
 A fifth of the holes, drawn with a seed, is taken away; a model of the rest is asked for values at their samples. Printed for each
 estimator, as means over the seeds in percent: errors within one and within 1.96 stated deviations, within the stated half-width;
-the same among the tenth estimated richest; and the half-width's lowest and highest of all seeds. The named sites are made up:
-130 deviated holes of a stationary field, of one with a strong trend, of a grade whose errors grow with its level; and 60 vertical
-holes over 50 x 50 km.
+the same among the tenth estimated richest, of the faulted site within 50 m of a fault; and the half-width's lowest and highest of
+all seeds. The named sites are made up: 130 deviated holes of a stationary field, of one with a strong trend, of a grade whose
+errors grow with its level, of fields that have nothing to do with each other on the sides of a fault through everything and of one
+that ends; and 60 vertical holes over 50 x 50 km.
 """
 import argparse
 import csv
@@ -33,9 +34,43 @@ def waves(rng, ranges, count=300):
     return lambda p: math.sqrt(2 / count) * sum(math.cos(sum(k * x for k, x in zip(ks, p)) + phase) for ks, phase in made)
 
 
+# Planes, their normals towards +x, each as far north as it goes: y below.
+FAULTS = [((1000, 0, 0), (0.94, 0.1, 0.33), 9e9), ((500, 0, 0), (0.9, -0.2, 0.38), 1000)]
+
+
+def off_fault(p, fault):
+    """The signed distance from its plane."""
+    through, normal, _ = fault
+    size = math.sqrt(sum(n * n for n in normal))
+    return sum(n * (c - t) for n, c, t in zip(normal, p, through)) / size
+
+
+def near_fault(p, reach=50):
+    return any(abs(off_fault(p, fault)) <= reach and p[1] <= fault[2] + reach for fault in FAULTS)
+
+
+def write_faults(name):
+    with open(name, "w", encoding="utf-8") as file:
+        for number, (through, normal, last) in enumerate(FAULTS):
+            file.write(f"GOCAD TSurf 1\nHEADER {{\nname:F{number}\n}}\nTFACE\n")
+            for k, (y, z) in enumerate(((-900, -1400), (min(last, 2900), -1400), (min(last, 2900), 900), (-900, 900)), 1):
+                x = through[0] - (normal[1] * (y - through[1]) + normal[2] * (z - through[2])) / normal[0]
+                file.write(f"VRTX {k} {500000 + x!r} {6700000 + y!r} {z}\n")
+            file.write("TRGL 1 2 3\nTRGL 1 3 4\nEND\n")
+
+
 def deviated(kind):
     rng = random.Random(11)
     field = waves(rng, (150, 150, 40))
+    if kind == "faulted":
+        west, middle_block, east = (waves(rng, (150, 150, 40)) for _ in range(3))
+
+        def field(p):
+            if off_fault(p, FAULTS[0]) > 0:
+                return 4 + east(p)
+            # Where the second fault ends its sides run together.
+            part = 1 / (1 + math.exp((p[1] - 1000) / 60)) if off_fault(p, FAULTS[1]) < 0 else 0
+            return middle_block(p) + part * 3 * (1 + 0.3 * west(p))
     collars, surveys, logs = [], [], []
     for k in range(130):
         x, y, azimuth, dip = rng.uniform(0, 2000), rng.uniform(0, 2000), rng.uniform(0, 360), rng.uniform(50, 85)
@@ -116,6 +151,10 @@ def main():
 
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        faulted = a.site[0] == "faulted"
+        if faulted:
+            write_faults("faults.ts")
+            a.option += ["--faults=faults.ts", "--fault-spacing=200"]
         if not files:
             collars, surveys, logs = flat() if a.site[0] == "flat" else deviated(a.site[0])
             write("collar.csv", ("hole", "x", "y", "z", "length"), collars)
@@ -146,11 +185,12 @@ def main():
                                                       .splitlines()), truth):
                     if row[column] and row[column + "_sd"]:
                         value, sd = scale(float(row[column])), float(row[column + "_sd"])
-                        told.append((value, abs(value - scale(sample[3])), sd, float(row.get(column + "_ci95", 1.96 * sd))))
-                richest = sorted(told, reverse=True)[:max(len(told) // 10, 1)]
-                found[e].append([share(t, limit) for t in (told, richest) for limit in (
+                        told.append((value, abs(value - scale(sample[3])), sd, float(row.get(column + "_ci95", 1.96 * sd)),
+                                     faulted and near_fault((sample[0] - 500000, sample[1] - 6700000, sample[2]))))
+                some = [t for t in told if t[4]] if faulted else sorted(told, reverse=True)[:max(len(told) // 10, 1)]
+                found[e].append([share(t, limit) for t in (told, some) for limit in (
                     lambda t: t[1] <= t[2], lambda t: t[1] <= 1.96 * t[2], lambda t: t[1] <= t[3])])
-        print("| | in sd | in 1.96 sd | in 95 % | richest: in sd | in 1.96 sd | in 95 % | lowest … highest in 95 % |")
+        print(f"| | in sd | in 1.96 sd | in 95 % | {'beside faults' if faulted else 'richest'}: in sd | in 1.96 sd | in 95 % | lowest … highest in 95 % |")
         for e, all_of in found.items():
             means = [sum(column) / len(all_of) for column in zip(*all_of)]
             widths = [one[2] for one in all_of]

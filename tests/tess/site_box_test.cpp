@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tess/build.hpp"
 #include "tess/error.hpp"
 #include "tess/site_box.hpp"
+#include "tess/vertex_demand.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;
@@ -99,6 +101,7 @@ TEST_CASE("Data flatter than ten to one are stretched to five to one; a level pl
     CHECK(suitable_z_scale({{0, 0, 0}, {1000, 1000, 99}}) == 2);
     CHECK(suitable_z_scale({{0, 0, 0}, {1170, 1170, 100}}) == 2.3);
     CHECK(suitable_z_scale({{0, 0, 5}, {1000, 1000, 5}}) == 1);
+    CHECK(suitable_z_scale({{0, 0, 5}, {1000, 1000, 5.0005}}) == 1);  // level but for rounding
     CHECK(suitable_z_scale({{0, 0, 0}, {0, 0, 300}}) == 1);
     CHECK(suitable_z_scale({}) == 1);
     CHECK(suitable_z_scale({{0, 0, 0}, {50000, 50000, 1}}) == 1000);
@@ -150,5 +153,7 @@ TEST_CASE("What is known of the vertices beforehand is never more than comes of 
         const testing::Built plain = testing::build_world(world);
         world.options.refine.max_vertices = plain.model.vertices.size() + plain.report.refine.removed + 20;  // tried
         CHECK_NOTHROW(testing::build_world(world));
+        const auto seeds = std::ranges::count(plain.model.vertices, Role::seed, &Vertex::role);
+        CHECK(vertex_demand(plain.model, world.options.faults).seeds <= static_cast<double>(seeds));
     }
 }

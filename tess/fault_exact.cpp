@@ -6,6 +6,7 @@
 
 #include "tess/compatible.hpp"
 #include "tess/fault_seed.hpp"
+#include "tess/fault_settle.hpp"
 #include "tess/seed_grid.hpp"
 #include "tess/seed_tree.hpp"
 
@@ -17,12 +18,10 @@ constexpr double local_height = 0.15;   ///< of other seeds over their triangle,
 constexpr double most_lifted = 1;       ///< height of seeds over certified balls, in edge lengths
 constexpr double ring_step = 0.2;       ///< of rings along junctions, in edge lengths
 constexpr double ring_radius = 0.14;
-constexpr double tolerance = 1e-8;  ///< relative, on the radii: rounding of the seeds
+constexpr double tolerance = 1e-8;  ///< relative, on the radii: rounding of the seeds,
+constexpr double depth = 5e-9;      ///< and that they stand in general position
 
-struct Candidate {
-    Vec3 foot;
-    double height = 0;  ///< 0: there is none
-};
+using Candidate = BallPair;
 
 class ExactSeeds {
   public:
@@ -33,16 +32,7 @@ class ExactSeeds {
         find_radii();
         find_radical();
         const std::vector<char> chosen = choose();
-        placed_.assign(chosen.size(), 0);
-        certified_ball_.assign(complex_.points.size(), 0);
-        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
-            if (chosen[t] != 0) {
-                placed_[t] = add_radical(t) ? 1 : 0;
-                for (const std::uint32_t v : complex_.triangles[t]) {
-                    certified_ball_[v] = 1;
-                }
-            }
-        }
+        place_radical(chosen);
         const SeedGrid points = grid_of_points();
         for (std::uint32_t t = 0; t < chosen.size(); ++t) {
             if (t % 256 == 0) {
@@ -193,9 +183,24 @@ class ExactSeeds {
         return true;
     }
 
-    bool add_radical(std::uint32_t t) {
-        const Vec3 up = radical_[t].height * normal(t);
-        return collector_.add(complex_.sheet[t], radical_[t].foot + up, radical_[t].foot - up);
+    void place_radical(const std::vector<char>& chosen) {
+        std::vector<BallPair> pairs(chosen.size());
+        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
+            if (chosen[t] != 0) {
+                pairs[t] = radical_[t];
+            }
+        }
+        const std::vector<std::array<Vec3, 2>> seeds = settled_seeds(complex_, radius_, pairs, depth);
+        placed_.assign(chosen.size(), 0);
+        certified_ball_.assign(complex_.points.size(), 0);
+        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
+            if (chosen[t] != 0) {
+                placed_[t] = collector_.add(complex_.sheet[t], seeds[t][0], seeds[t][1]) ? 1 : 0;
+                for (const std::uint32_t v : complex_.triangles[t]) {
+                    certified_ball_[v] = 1;
+                }
+            }
+        }
     }
 
     [[nodiscard]] bool harmless(const Vec3& seed, const SeedGrid& points) const {

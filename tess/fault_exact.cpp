@@ -18,8 +18,10 @@ constexpr double local_height = 0.15;   ///< of other seeds over their triangle,
 constexpr double most_lifted = 1;       ///< height of seeds over certified balls, in edge lengths
 constexpr double ring_step = 0.2;       ///< of rings along junctions, in edge lengths
 constexpr double ring_radius = 0.14;
-constexpr double tolerance = 1e-8;  ///< relative, on the radii: rounding of the seeds,
-constexpr double depth = 5e-9;      ///< and that they stand in general position
+constexpr double way_freedom = 0.02;    ///< in edge lengths: how far pairs may be moved to mend slivers,
+constexpr double height_freedom = 0.1;  ///< and by which part lowered, unless they are certified
+constexpr double tolerance = 1e-8;      ///< relative, on the radii: rounding of the seeds,
+constexpr double depth = 5e-9;          ///< and that they stand in general position
 
 using Candidate = BallPair;
 
@@ -43,6 +45,7 @@ class ExactSeeds {
             }
         }
         add_rings(chosen, points);
+        collector_.mend([&](const Vec3& seed) { return harmless(seed, points); });
         ask(task_.poll);
         SeededComplex result;
         result.certified = certify();
@@ -195,7 +198,7 @@ class ExactSeeds {
         certified_ball_.assign(complex_.points.size(), 0);
         for (std::uint32_t t = 0; t < chosen.size(); ++t) {
             if (chosen[t] != 0) {
-                placed_[t] = collector_.add(complex_.sheet[t], seeds[t][0], seeds[t][1]) ? 1 : 0;
+                placed_[t] = collector_.add(complex_.sheet[t], seeds[t][0], seeds[t][1], {}) ? 1 : 0;
                 for (const std::uint32_t v : complex_.triangles[t]) {
                     certified_ball_[v] = 1;
                 }
@@ -229,7 +232,8 @@ class ExactSeeds {
         const Vec3 up = candidate.height * normal(t);
         return candidate.height > 0 && harmless(candidate.foot + up, points) && harmless(candidate.foot - up, points) &&
                sees(t, candidate.foot + up) && sees(t, candidate.foot - up) &&
-               collector_.add(complex_.sheet[t], candidate.foot + up, candidate.foot - up);
+               collector_.add(complex_.sheet[t], candidate.foot + up, candidate.foot - up,
+                              {way_freedom * task_.sizes.at(candidate.foot), height_freedom});
     }
 
     /// The height over the candidate's foot from which on it is outside certified balls on both sides; 0 when that is
@@ -321,7 +325,8 @@ class ExactSeeds {
                     const Vec3 middle = a + ((step + 0.5) / steps) * (b - a) + level;
                     if (harmless(middle + up, points) && harmless(middle - up, points) &&
                         !task_.wall.between(middle, middle + up, t) && !task_.wall.between(middle, middle - up, t)) {
-                        collector_.add(complex_.sheet[t], middle + up, middle - up);
+                        collector_.add(complex_.sheet[t], middle + up, middle - up,
+                                       {way_freedom * scale, height_freedom});
                     }
                 }
             }

@@ -10,10 +10,12 @@
 namespace terratet {
 namespace {
 
-constexpr double bend_factor = 1.1;  ///< on the protection radius of bent surfaces
-constexpr double flat = 0.9999;      ///< cosine of the turn from which a surface counts as bent
-constexpr double straight = -0.95;   ///< cosine of the angle from which two half-sheets make no corner
-constexpr double aside = 2.0 / 3;    ///< share of half a junction's sector that a seed is turned from its half-sheet
+constexpr double bend_factor = 1.1;      ///< on the protection radius of bent surfaces
+constexpr double flat = 0.9999;          ///< cosine of the turn from which a surface counts as bent
+constexpr double straight = -0.95;       ///< cosine of the angle from which two half-sheets make no corner
+constexpr double way_freedom = 0.04;     ///< in edge lengths: how far pairs may be moved to mend slivers,
+constexpr double height_freedom = 0.15;  ///< and by which part lowered
+constexpr double aside = 2.0 / 3;  ///< share of half a junction's sector that a seed is turned from its half-sheet
 
 /// Triangles round a point that hang together over smooth edges: a sheet, or a half-sheet where others join it.
 struct PointFan {
@@ -26,10 +28,19 @@ struct PointFan {
 class PairedSeeds {
   public:
     explicit PairedSeeds(const SeedTask& task)
-        : task_(task), complex_(task.complex), collector_(task), star_(complex_.points.size()) {
+        : task_(task),
+          complex_(task.complex),
+          collector_(task),
+          star_(complex_.points.size()),
+          at_rim_(complex_.points.size(), 0) {
         for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
             for (const std::uint32_t v : complex_.triangles[t]) {
                 star_[v].push_back(t);
+            }
+        }
+        for (const EdgeTable::Edge& e : task_.edges.edges()) {
+            if (task_.edges.triangles(e).size() == 1) {
+                at_rim_[e.a] = at_rim_[e.b] = 1;
             }
         }
     }
@@ -46,9 +57,11 @@ class PairedSeeds {
         const double spacing = task_.sizes.spacing();
         const double widest = std::sqrt(0.5 * spacing * spacing + 0.25 * task_.width * task_.width);
         collector_.cover_all(skirts, widest, result);
+        const std::vector<double> moved = collector_.mend([](const Vec3&) { return true; });
         const std::vector<char> bent = bent_surfaces();
         for (std::size_t surface = 0; surface < result.covering_radius.size(); ++surface) {
-            const double rho = result.covering_radius[surface];
+            double& rho = result.covering_radius[surface];
+            rho = moved[surface] > 0 ? std::min(rho + moved[surface], spacing * std::numbers::sqrt2 / 2) : rho;
             result.protection_radius.push_back((bent[surface] != 0 ? bend_factor : 1.0) *
                                                std::sqrt(rho * rho + 0.25 * task_.width * task_.width));
         }
@@ -58,6 +71,22 @@ class PairedSeeds {
     }
 
   private:
+    /// How far a base point may go and its triangles stay covered. Those near rims may not: they cover the margin too.
+    [[nodiscard]] double free_way(std::uint32_t v) const {
+        if (task_.mend_within == nullptr) {
+            return 0;
+        }
+        const double covered = task_.sizes.spacing() * std::numbers::sqrt2 / 2;
+        double way = way_freedom * task_.sizes.at(complex_.points[v]);
+        for (const std::uint32_t t : star_[v]) {
+            way = std::min(way, covered - terratet::covering_radius(corners(complex_, t)));
+            for (const std::uint32_t w : complex_.triangles[t]) {
+                way = at_rim_[w] != 0 ? 0 : way;
+            }
+        }
+        return std::max(0.0, way);
+    }
+
     [[nodiscard]] std::vector<PointFan> fans(std::uint32_t v) const {
         const std::vector<std::uint32_t>& star = star_[v];
         std::vector<std::size_t> parent(star.size());
@@ -105,7 +134,8 @@ class PairedSeeds {
         const Vec3& p = complex_.points[v];
         const double half = 0.5 * task_.width * task_.sizes.at(p) / task_.sizes.spacing();
         if (all.size() == 1) {
-            collector_.add(all[0].surface, p + half * all[0].normal, p - half * all[0].normal);
+            collector_.add(all[0].surface, p + half * all[0].normal, p - half * all[0].normal,
+                           {free_way(v), height_freedom});
             return;
         }
         const Vec3 tangent = junction_tangent(v);
@@ -120,7 +150,7 @@ class PairedSeeds {
             Vec3 minus = half * (std::cos(turn) * along - std::sin(turn) * fan.normal);
             for (int tries = 0; tries < 4; ++tries) {
                 if (sees(fan, p + plus) && sees(fan, p + minus)) {
-                    collector_.add(fan.surface, p + plus, p + minus);
+                    collector_.add(fan.surface, p + plus, p + minus, {free_way(v), height_freedom});
                     break;
                 }
                 plus = 0.5 * plus;
@@ -137,7 +167,7 @@ class PairedSeeds {
         if (dot(one, other) > straight) {
             const Vec3 in = half * unit(one + other);
             const double side = dot(in, both[0].normal) > 0 ? 1 : -1;
-            collector_.add(both[0].surface, p + side * in, p - side * in);
+            collector_.add(both[0].surface, p + side * in, p - side * in, {0, height_freedom});
         }
     }
 
@@ -193,6 +223,7 @@ class PairedSeeds {
     const FaultComplex& complex_;
     SeedCollector collector_;
     std::vector<std::vector<std::uint32_t>> star_;
+    std::vector<char> at_rim_;  ///< by point
 };
 
 }  // namespace

@@ -289,19 +289,21 @@ bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
                          "is too rough for the spacing, or meets it at too small an angle: remeshed it still crosses ");
 }
 
-void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll) const {
+void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend) const {
+    const Box3* within = mend ? &extent_ : nullptr;
     const EdgeTable edges(pass.complex.triangles);
     const FaultWall wall(pass.complex);
     const auto count = static_cast<std::uint32_t>(candidates_.size());
     if (options_.mode == FaultMode::paired) {
         pass.skirts = skirts(pass.complex, edges);
-        pass.seeded =
-            paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll}, pass.skirts);
+        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll, within},
+                                   pass.skirts);
     } else {
         const FaultComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
         const EdgeTable all_edges(whole_complex.triangles);
-        pass.seeded = exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll});
+        pass.seeded =
+            exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll, within});
         pass.skirts.assign(count, FaultMesh{whole_complex.points, {}});
         for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
             pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);

@@ -102,7 +102,7 @@ class FaultPreparer {
     void cut();
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
     bool refuse_crossing(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
-    void seed(Pass& pass, const SizeField& sizes, const Poll& poll) const;
+    void seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend = false) const;
     /// \pre The stage's name outlives what is returned.
     [[nodiscard]] Poll told(std::string_view stage, double fraction) const;
     [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;

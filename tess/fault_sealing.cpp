@@ -33,7 +33,8 @@ bool FaultPreparer::seal(Pass& pass) {
         const auto sealing = [&](double share) {
             report_progress(progress_, "sealing faults", 1 - std::pow(0.3, seals_ + share));
         };
-        sealing(0);
+        seed(
+            pass, mesher_->sizes(), [&] { sealing(0); }, true);
         all = barriers(pass);
         if (all.faults.empty()) {
             return true;
@@ -43,9 +44,6 @@ bool FaultPreparer::seal(Pass& pass) {
         again = relax(sealed.open, round);
         if (refuse_leaking(sealed.open, all.numbers)) {
             return false;
-        }
-        if (again) {
-            seed(pass, mesher_->sizes(), [&] { sealing(0); });
         }
     }
     for (std::size_t f = 0; f < all.faults.size(); ++f) {

@@ -5,13 +5,21 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tess/fault_slivers.hpp"
 #include "tess/seed_tree.hpp"
 
 namespace terratet {
+namespace {
 
-SeedCollector::SeedCollector(const SeedTask& task) : task_(task), seeds_(task.surface_count) {}
+constexpr double height_freedom = 0.15;  ///< by which part pairs may be lowered whose places cover more than theirs
+constexpr double widest_sliver = 3;      ///< radius of a ball that may stay empty, in spacings
 
-bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& minus) {
+}  // namespace
+
+SeedCollector::SeedCollector(const SeedTask& task)
+    : task_(task), seeds_(task.surface_count), freedom_(task.surface_count) {}
+
+bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& minus, const Freedom& freedom) {
     const Vec3 above = task_.frame.snapped(plus);
     const Vec3 below = task_.frame.snapped(minus);
     if (above == below || taken_.contains(above) || taken_.contains(below)) {
@@ -21,7 +29,47 @@ bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& min
     places_.insert(places_.end(), {above, below});
     seeds_[surface].push_back({above, 1});
     seeds_[surface].push_back({below, -1});
+    freedom_[surface].push_back(freedom);
     return true;
+}
+
+std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& seed)>& fits) {
+    std::vector<double> farthest(task_.surface_count, 0);
+    if (task_.mend_within == nullptr) {
+        return farthest;
+    }
+    std::vector<MovablePair> pairs;
+    for (std::uint32_t surface = 0; surface < task_.surface_count; ++surface) {
+        for (std::size_t k = 0; k < freedom_[surface].size(); ++k) {
+            const auto& [along, height] = freedom_[surface][k];
+            pairs.push_back(
+                {seeds_[surface][2 * k].position, seeds_[surface][2 * k + 1].position, surface, along, height});
+        }
+    }
+    const std::vector<MovablePair> given = pairs;
+    SliverTask task;
+    task.reach = widest_sliver * task_.sizes.spacing();
+    task.extent = *task_.mend_within;
+    task.may_move = [&](std::size_t pair, const Vec3& plus, const Vec3& minus) {
+        return !taken_.contains(plus) && !taken_.contains(minus) && fits(plus) && fits(minus) &&
+               !task_.wall.between(given[pair].plus, plus) && !task_.wall.between(given[pair].minus, minus);
+    };
+    task.apart = [&](const Vec3& a, const Vec3& b) { return task_.wall.between(a, b); };
+    const SliversMended mended = mend_slivers(pairs, task, task_.frame, task_.poll);
+    places_.clear();
+    std::vector<std::size_t> next(task_.surface_count, 0);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const std::uint32_t surface = pairs[k].owner;
+        for (const Vec3& seed : {pairs[k].plus, pairs[k].minus}) {
+            seeds_[surface][next[surface]++].position = seed;
+            places_.push_back(seed);
+        }
+        if (mended.moved[k] != 0) {
+            farthest[surface] = std::max(farthest[surface], pairs[k].along);
+        }
+    }
+    taken_ = {places_.begin(), places_.end()};
+    return farthest;
 }
 
 void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear, SeededComplex& result) {
@@ -44,7 +92,7 @@ void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear
         cover(skirts[surface], covered, any_number, clear_of_others, base);
         for (std::size_t k = own; k < base.size(); ++k) {
             const Vec3 half = 0.5 * task_.width * base[k].normal;
-            add(surface, base[k].position + half, base[k].position - half);
+            add(surface, base[k].position + half, base[k].position - half, {0, height_freedom});
         }
         FaultMesh all = sheet;
         append(all, skirts[surface]);

@@ -4,6 +4,7 @@
 /// \file
 /// Internal: the seeds of a remeshed fault complex, in either mode, and what can be certified of them (DESIGN §4.2).
 
+#include <functional>
 #include <set>
 #include <span>
 #include <vector>
@@ -27,6 +28,8 @@ struct SeedTask {
     double width = 0;                 ///< ε at the full spacing; smaller in proportion where triangles are
     std::span<const Vec3> relaxed{};  ///< about an edge length round these nothing need be certified (exact mode)
     Poll poll{};
+    const Box3* mend_within =
+        nullptr;  ///< where pairs are moved if four seeds make a sliver: only worth it for the last
 };
 
 struct SeededComplex {
@@ -55,8 +58,18 @@ class SeedCollector {
   public:
     explicit SeedCollector(const SeedTask& task);
 
+    /// How far a pair may be moved: see MovablePair.
+    struct Freedom {
+        double along = 0;
+        double height = 0;
+    };
+
     /// Adds a mirrored pair unless one of the places is taken.
-    bool add(std::uint32_t surface, const Vec3& plus, const Vec3& minus);
+    bool add(std::uint32_t surface, const Vec3& plus, const Vec3& minus, const Freedom& freedom);
+
+    /// Moves pairs where seeds make slivers, if the task asks for it: through no sheet, and only to where they fit.
+    /// Returns how far those of each surface went along it at most.
+    std::vector<double> mend(const std::function<bool(const Vec3& seed)>& fits);
 
     /// Covers sheets and skirts with pairs, the skirts but for places nearer than `clear` to other surfaces. Then finds
     /// the covering radii.
@@ -72,6 +85,7 @@ class SeedCollector {
   private:
     const SeedTask& task_;
     std::vector<std::vector<Seed>> seeds_;
+    std::vector<std::vector<Freedom>> freedom_;  ///< by surface and pair
     std::vector<Vec3> places_;
     std::set<Vec3> taken_;
 };

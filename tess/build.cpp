@@ -13,6 +13,7 @@
 #include "tess/error.hpp"
 #include "tess/fault_blocks.hpp"
 #include "tess/fault_preparation.hpp"
+#include "tess/long_steps.hpp"
 #include "tess/vertex_demand.hpp"
 
 namespace terratet {
@@ -249,9 +250,10 @@ std::vector<std::uint32_t> inside_extent(const Model& model, BuildReport& report
 }
 
 DensityResult thin(const Model& model, const std::vector<std::uint32_t>& inside, DensityMode mode,
-                   const FaultProximity& proximity) {
-    DensityResult result = edit_density(selected(model.samples, inside),
-                                        ResolutionField(model.criteria, model.domain, model.faults), mode, proximity);
+                   const FaultProximity& proximity, const Poll& poll) {
+    DensityResult result =
+        edit_density(selected(model.samples, inside), ResolutionField(model.criteria, model.domain, model.faults), mode,
+                     proximity, poll);
     for (auto* indices : {&result.kept, &result.near_faults}) {
         for (std::uint32_t& i : *indices) {
             i = inside[i];
@@ -293,13 +295,13 @@ class InitialVertices {
             }
         }
     }
-    void add_box() {
+    void add_box(const Poll& poll) {
         std::vector<Vec3> obstacles;
         for (const Vertex& vertex : model_.vertices) {
             obstacles.push_back(vertex.position);
         }
-        for (const Vec3& p :
-             face_grid(model_.domain.hull, model_.criteria.l_min, model_.criteria.l_max, obstacles, model_.frame)) {
+        for (const Vec3& p : face_grid(model_.domain.hull, model_.criteria.l_min, model_.criteria.l_max, obstacles,
+                                       model_.frame, poll)) {
             add(p, Role::domain, -1, 0);
         }
     }
@@ -371,15 +373,16 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     InitialVertices initial(model);
     {
         const Stopwatch watch(report.seconds["density"]);
-        report_progress(progress, "density", 0);
-        report.density = thin(model, inside_extent(model, report), options.density, proximity);
+        const Poll thinning = [&] { report_progress(progress, "density", 0); };
+        thinning();
+        report.density = thin(model, inside_extent(model, report), options.density, proximity, thinning);
         initial.add_samples(report.density.kept);
     }
     {
         const Stopwatch watch(report.seconds["boundary"]);
         initial.add_seeds();
         report.seeds = model.vertices.size() - report.density.kept.size();
-        initial.add_box();
+        initial.add_box([&] { report_progress(progress, "boundary", 0); });
         report.domain_vertices = model.vertices.size() - report.density.kept.size() - report.seeds;
     }
     ValueSource source;
@@ -397,7 +400,7 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
     Tessellation tessellation;
     {
         const Stopwatch watch(report.seconds["refine"]);
-        tessellation.insert(model.vertices);
+        insert_vertices(tessellation, model.vertices, [&] { report_progress(progress, "tessellate", 0); });
         report.initial = statistics(model, tessellation, nullptr);
         if (options.refine_enabled) {
             RefineOptions refine_options = options.refine;

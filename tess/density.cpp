@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "tess/bulk_insertion.hpp"
 #include "tess/delaunay.hpp"
+#include "tess/long_steps.hpp"
 #include "tess/point_grid.hpp"
 
 namespace terratet {
@@ -16,9 +18,10 @@ using Edge = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared lengt
 
 /// Greedy thinning in the order given.
 std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vector<std::uint32_t>& order,
-                                         PointGrid& kept, const ResolutionField& resolution) {
+                                         PointGrid& kept, const ResolutionField& resolution, PatientPoll& go_on) {
     std::vector<std::uint32_t> result;
     for (const std::uint32_t i : order) {
+        go_on();
         if (!kept.any_within(samples.positions[i], resolution.l_min(samples.positions[i]))) {
             kept.insert(samples.positions[i]);
             result.push_back(i);
@@ -33,25 +36,27 @@ std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vect
 class DynamicDeletion {
   public:
     DynamicDeletion(const Samples& samples, const std::vector<std::uint32_t>& candidates,
-                    const ResolutionField& resolution)
-        : samples_(samples), limits_(samples.size()), handles_(samples.size()) {
+                    const ResolutionField& resolution, PatientPoll& go_on)
+        : samples_(samples), limits_(samples.size()), handles_(samples.size()), go_on_(go_on) {
         std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
         for (const std::uint32_t i : candidates) {
             const double l_min = resolution.l_min(samples.positions[i]);
             limits_[i] = l_min * l_min;
             points.emplace_back(delaunay::to_cgal(samples.positions[i]), i);
         }
-        triangulation_.insert(points.begin(), points.end());
+        delaunay::insert(triangulation_, points, go_on_);
         for (const auto vertex : triangulation_.finite_vertex_handles()) {
             handles_[vertex->info()] = vertex;
         }
         for (const std::uint32_t i : candidates) {
+            go_on_();
             queue_edges_of(i);
         }
     }
 
     std::vector<std::uint32_t> run() {
         while (!short_edges_.empty()) {
+            go_on_();
             const auto [length, a, b] = *short_edges_.begin();
             remove(distance_to_second(a, b) < distance_to_second(b, a) ? a : b);
         }
@@ -116,25 +121,33 @@ class DynamicDeletion {
     delaunay::Triangulation triangulation_;
     std::vector<delaunay::VertexHandle> handles_;  ///< by sample; none once removed
     std::set<Edge> short_edges_;
+    PatientPoll& go_on_;
 };
 
 }  // namespace
 
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
                            const FaultProximity& faults) {
+    return edit_density(samples, resolution, mode, faults, {});
+}
+
+DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
+                           const FaultProximity& faults, const Poll& poll) {
+    PatientPoll go_on(poll);
     DensityResult result;
     std::vector<std::uint32_t> candidates;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        go_on();
         (faults.protecting_fault(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
     }
     PointGrid kept(resolution.largest_l_min());
     if (mode == DensityMode::paper) {
-        result.kept = DynamicDeletion(samples, candidates, resolution).run();
+        result.kept = DynamicDeletion(samples, candidates, resolution, go_on).run();
         for (const std::uint32_t i : result.kept) {
             kept.insert(samples.positions[i]);
         }
     }
-    const auto added = keep_in_order(samples, candidates, kept, resolution);
+    const auto added = keep_in_order(samples, candidates, kept, resolution, go_on);
     result.kept.insert(result.kept.end(), added.begin(), added.end());
     std::ranges::sort(result.kept);
     result.deleted = candidates.size() - result.kept.size();

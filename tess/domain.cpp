@@ -5,14 +5,22 @@
 #include <algorithm>
 
 #include "tess/grid_steps.hpp"
+#include "tess/long_steps.hpp"
 #include "tess/point_grid.hpp"
 
 namespace terratet {
 
 std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
                             const Frame& frame) {
+    return face_grid(hull, l_min, l_max, obstacles, frame, {});
+}
+
+std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
+                            const Frame& frame, const Poll& poll) {
+    PatientPoll go_on(poll);
     PointGrid near(l_min);
     for (const Vec3& p : obstacles) {
+        go_on();
         near.insert(p);
     }
     std::array<int, 3> n{};
@@ -27,6 +35,7 @@ std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::s
         for (int j = 0; j <= n[1]; ++j) {
             const bool on_side = i == 0 || i == n[0] || j == 0 || j == n[1];
             for (int k = 0; k <= n[2]; k += on_side ? 1 : n[2]) {
+                go_on();
                 const bool corner = (i == 0 || i == n[0]) && (j == 0 || j == n[1]) && (k == 0 || k == n[2]);
                 const Vec3 p = frame.snapped({coordinate(0, i), coordinate(1, j), coordinate(2, k)});
                 if (corner || !near.any_within(p, l_min)) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/error.hpp"
+#include "tess/vertex_demand.hpp"
 
 namespace terratet {
 
@@ -15,20 +15,20 @@ constexpr std::size_t batch_size = 1U << 12U;  ///< enough for any number of thr
 }  // namespace
 
 LiveVertices::LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source,
-                           bool values_at_once, std::uint64_t max_vertices, double bound)
+                           bool values_at_once, std::uint64_t max_vertices, double l_min, double bound)
     : kernel_(kernel),
       values_(values),
       source_(source),
       values_at_once_(values_at_once),
       max_vertices_(max_vertices),
+      others_(kernel.vertices.size()),
+      l_min_(l_min),
       bound_(bound) {}
 
 std::uint32_t LiveVertices::append(const Vec3& place) {
     auto& vertices = kernel_.vertices;
     if (vertices.size() >= max_vertices_) {
-        throw Error("refinement reached --max-vertices " + std::to_string(max_vertices_) +
-                    "; the criteria allow up to " + std::to_string(static_cast<std::uint64_t>(bound_)) +
-                    " inserted vertices: raise the limit, or --lmin");
+        throw refinement_beyond(max_vertices_, others_, l_min_, bound_);
     }
     if (vertices.size() == vertices.capacity()) {  // doubling would cost more than the queue
         vertices.reserve(vertices.size() / 8 * 9 + 8);

@@ -14,9 +14,10 @@ namespace terratet {
 
 class LiveVertices {
   public:
-    /// All references must outlive the object. append() throws Error beyond `max_vertices`; `bound` is for its message.
+    /// All references must outlive the object. append() throws UsageError beyond `max_vertices`; `l_min` and
+    /// `bound` (R1) are for its message.
     LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source, bool values_at_once,
-                 std::uint64_t max_vertices, double bound);
+                 std::uint64_t max_vertices, double l_min, double bound);
 
     /// A vertex of role inserted, with the next id. Its place in the triangulation is the caller's business.
     std::uint32_t append(const Vec3& place);
@@ -43,6 +44,8 @@ class LiveVertices {
     const ValueSource& source_;
     bool values_at_once_;
     std::uint64_t max_vertices_;
+    std::size_t others_;  ///< there from the start
+    double l_min_;
     double bound_;
 };
 

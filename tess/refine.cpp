@@ -40,7 +40,7 @@ class Refiner {
           criteria_(criteria),
           frame_(frame),
           options_(options),
-          vertices_(kernel_, values, source, criteria.has_variation(), options.max_vertices,
+          vertices_(kernel_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
                     rule_.resolution().packing_bound()),
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
           has_faults_(!faults.empty()) {
@@ -54,6 +54,9 @@ class Refiner {
         queue_all();
         do {
             while (const auto cell = queue_.pop()) {
+                if (++treated_ % 256 == 0) {
+                    tell();
+                }
                 treat(*cell);
             }
         } while (retry());
@@ -261,9 +264,6 @@ class Refiner {
             }
         }
         queue_bad(star_);
-        if (report_.inserted % 4096 == 0) {
-            tell();
-        }
     }
 
     void clean_up() {
@@ -301,6 +301,7 @@ class Refiner {
     RefineReport report_;
     std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
     std::uint64_t inserted_before_retry_ = 0;
+    std::uint64_t treated_ = 0;
     double told_ = 0;
     Zone zone_;
     Zone candidate_;

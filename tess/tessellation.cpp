@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "tess/bulk_insertion.hpp"
 #include "tess/delaunay.hpp"
+#include "tess/long_steps.hpp"
 
 namespace terratet {
 
@@ -47,7 +49,12 @@ Tessellation::Tessellation(Tessellation&&) noexcept = default;
 Tessellation& Tessellation::operator=(Tessellation&&) noexcept = default;
 
 void Tessellation::insert(std::span<const Vertex> vertices) {
-    auto& kernel = *kernel_;
+    insert_vertices(*this, vertices, {});
+}
+
+void insert_vertices(Tessellation& tessellation, std::span<const Vertex> vertices, const Poll& poll) {
+    auto& kernel = tessellation.kernel();
+    PatientPoll go_on(poll);
     std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
     points.reserve(vertices.size());
     kernel.vertices.reserve(kernel.vertices.size() + vertices.size());
@@ -57,7 +64,7 @@ void Tessellation::insert(std::span<const Vertex> vertices) {
         kernel.vertices.push_back(vertex);
         kernel.next_id = vertex.id + 1;
     }
-    kernel.triangulation.insert(points.begin(), points.end());
+    delaunay::insert(kernel.triangulation, points, go_on);
     assert(kernel.triangulation.number_of_vertices() == kernel.vertices.size());
 }
 

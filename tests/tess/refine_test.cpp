@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "tess/cells.hpp"
+#include "tess/error.hpp"
+#include "tess/long_steps.hpp"
 #include "tess/quality.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
@@ -70,6 +72,58 @@ TEST_CASE("Too many vertices are refused, naming the option") {
     testing::World world = random_world(5);
     world.options.refine.max_vertices = 150;
     CHECK_THROWS_WITH(build_world(world), Catch::Contains("--max-vertices"));
+}
+
+TEST_CASE("More vertices than allowed that only refinement shows are refused as others are, with an l_min that fits") {
+    testing::World world = random_world(5);
+    const testing::Built whole = build_world(world);
+    const std::uint64_t initial =
+        whole.model.vertices.size() - whole.report.refine.inserted + whole.report.refine.removed;
+    REQUIRE(whole.report.refine.inserted > 20);
+    world.options.refine.max_vertices = initial + 10;
+    REQUIRE_THROWS_AS(build_world(world), UsageError);
+    std::string message;
+    try {
+        build_world(world);
+    } catch (const UsageError& e) {
+        message = e.what();
+    }
+    CHECK_THAT(message, Catch::Contains("--max-vertices " + std::to_string(initial + 10)) &&
+                            Catch::Contains("as refinement shows"));
+    const std::string before = "an --lmin of ";
+    const double wider = std::stod(message.substr(message.find(before) + before.size()));
+    CHECK(wider > world.options.criteria.l_min);
+}
+
+TEST_CASE("Each step of a build that takes long can be stopped: it asks on its way") {
+    testing::Random random(3);
+    Samples samples;
+    std::vector<Vertex> vertices;
+    for (std::uint64_t i = 0; i < 5000; ++i) {
+        const Vec3 p = random.in({{0, 0, 0}, {1000, 1000, 1000}});
+        samples.positions.push_back(p);
+        vertices.push_back({i, p, Role::sample, static_cast<std::int32_t>(i), 0});
+    }
+    const std::vector<Fault> no_faults;
+    const FaultProximity proximity(no_faults);
+    Criteria criteria;
+    criteria.l_min = 10;
+    const Domain nowhere;
+    const ResolutionField resolution(criteria, nowhere, {});
+    const Poll stop = [] { throw Cancelled(); };
+    CHECK_THROWS_AS(face_grid({{0, 0, 0}, {1000, 1000, 1000}}, 10, 40, {}, {}, stop), Cancelled);
+    for (const DensityMode mode : {DensityMode::canonical, DensityMode::paper}) {
+        int asked = 0;
+        CHECK_THROWS_AS(edit_density(samples, resolution, mode, proximity, stop), Cancelled);
+        edit_density(samples, resolution, mode, proximity, [&] { ++asked; });
+        CHECK(asked > (mode == DensityMode::paper ? 20 : 10));
+    }
+    Tessellation tessellation;
+    CHECK_THROWS_AS(insert_vertices(tessellation, vertices, stop), Cancelled);
+    Tessellation whole;
+    insert_vertices(whole, vertices, {});
+    CHECK(whole.cell_count() > 20000);
+    CHECK(whole.is_delaunay());
 }
 
 TEST_CASE("Refinement can be cancelled") {

@@ -41,9 +41,11 @@ constexpr double same_normal = 0.99;   ///< cosine of the angle up to which two 
 constexpr double same_height = 0.1;    ///< and how far apart they may be, in protection radii
 constexpr double level = 0.98;         ///< cosine of the angle up to which a sheet does not count as bent,
 constexpr double plain_radius = 0.75;  ///< looked at so far from a seed, in spacings
+constexpr double low = 0.02;           ///< likewise: pairs so narrow stand where layers of a sheet lie on each other
 constexpr double shallow = 0.95;       ///< of the protection radius: balls reach that far anyhow
 constexpr double inside = 0.995;       ///< of the protection radius: what is protected for sure
 constexpr std::size_t most_planes = 24;
+constexpr double wide = 1.9;          ///< in protection radii: larger triangles are looked at in parts
 constexpr double close_probes = 0.2;  ///< in protection radii: probes nearer to each other than that,
 constexpr double close_out = 0.9;     ///< and standing out into directions with this cosine at least, tell the same
 
@@ -84,6 +86,24 @@ struct Plane {
     Vec3 normal;
     double protection = 0;  ///< of its fault
 };
+
+/// The triangle in equal parts, like it, none with an edge above `longest`; at most some thousand.
+std::vector<TriangleCorners> parts_of(const TriangleCorners& whole, double longest) {
+    std::vector<TriangleCorners> parts{whole};
+    for (double edge =
+             std::max({distance(whole[0], whole[1]), distance(whole[1], whole[2]), distance(whole[2], whole[0])});
+         edge > longest && parts.size() < 1024; edge /= 2) {
+        std::vector<TriangleCorners> smaller;
+        for (const auto& [a, b, c] : parts) {
+            const Vec3 ab = 0.5 * (a + b);
+            const Vec3 bc = 0.5 * (b + c);
+            const Vec3 ca = 0.5 * (c + a);
+            smaller.insert(smaller.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        parts = std::move(smaller);
+    }
+    return parts;
+}
 
 /// Neither there nor too many?
 bool is_wanted(const Plane& plane, const std::vector<Plane>& planes) {
@@ -172,26 +192,40 @@ struct LeakFinder::Impl {
     void place_probes() {
         std::vector<FaultProbe> placed;
         SeedGrid places({}, close_probes * widest_protection(faults));
-        for (std::uint32_t t = 0; t < grid.size(); ++t) {
-            const TriangleCorners& c = grid.triangle(t);
-            const double protection = faults[fault_of[t]].protection_radius;
+        const auto place = [&](const Vec3& over, const Vec3& out, std::uint32_t f) {
+            const std::optional<Vec3> free = zone.pushed_out(over);
+            if (!free || !hull.contains(*free)) {
+                return;
+            }
+            const FaultProbe probe{*free, *free == over ? out : Vec3{}, f};
+            bool there = false;
+            places.visit(probe.place, [&](std::uint32_t k) {
+                const Vec3& other = placed[k].out;
+                const bool alike = probe.out == Vec3{} ? other == Vec3{} : dot(other, probe.out) > close_out;
+                there = there || (placed[k].fault == f && alike &&
+                                  distance(placed[k].place, probe.place) < close_probes * faults[f].protection_radius);
+            });
+            if (!there) {
+                places.insert(probe.place);
+                placed.push_back(probe);
+            }
+        };
+        const auto place_over = [&](const TriangleCorners& c, std::uint32_t t) {
             const Vec3 middle = centroid(c);
             if (is_plain(fault_of[t], middle, normals[t])) {
-                continue;
+                return;
             }
             for (const Vec3& x : {middle, 0.5 * (middle + c[0]), 0.5 * (middle + c[1]), 0.5 * (middle + c[2])}) {
                 for (const double side : {1.0, -1.0}) {
-                    const FaultProbe probe{x + side * beyond * protection * normals[t], side * normals[t], fault_of[t]};
-                    bool there = false;
-                    places.visit(probe.place, [&](std::uint32_t k) {
-                        there = there || (placed[k].fault == probe.fault && dot(placed[k].out, probe.out) > close_out &&
-                                          distance(placed[k].place, probe.place) < close_probes * protection);
-                    });
-                    if (!there && hull.contains(probe.place) && !zone.contains(probe.place)) {
-                        places.insert(probe.place);
-                        placed.push_back(probe);
-                    }
+                    const Vec3 out = side * normals[t];
+                    place(x + beyond * faults[fault_of[t]].protection_radius * out, out, fault_of[t]);
                 }
+            }
+        };
+        for (std::uint32_t t = 0; t < grid.size(); ++t) {
+            const double longest = wide * faults[fault_of[t]].protection_radius;
+            for (const TriangleCorners& part : parts_of(grid.triangle(t), longest)) {
+                place_over(part, t);
             }
         }
         probes = FaultProbes(std::move(placed));
@@ -201,7 +235,7 @@ struct LeakFinder::Impl {
     [[nodiscard]] bool is_plain(std::uint32_t fault, const Vec3& place, const Vec3& normal) const {
         const double near = plain_radius * faults[fault].spacing;
         return std::ranges::all_of(grid.candidates(place), [&](std::uint32_t t) {
-            return (fault_of[t] == fault && at_rim[t] == 0 && std::abs(dot(normals[t], normal)) > level) ||
+            return (fault_of[t] == fault && at_rim[t] == 0 && dot(normals[t], normal) > level) ||
                    grid.squared_distance_to(t, place) >= near * near;
         });
     }
@@ -222,7 +256,7 @@ struct LeakFinder::Impl {
                 here.planes.push_back(plane);
             }
         }
-        here.plain = is_plain(owner, base, normal);
+        here.plain = is_plain(owner, base, normal) && distance(plus, minus) > low * faults[owner].spacing;
         return first;
     }
 
@@ -317,7 +351,7 @@ struct LeakFinder::Impl {
             std::ranges::copy_if(around[i / 2].planes, std::back_inserter(planes),
                                  [&](const Plane& plane) { return is_wanted(plane, planes); });
         }
-        return leaks_over(planes, cell, v, leak) || holds_probe(cell, v, leak);
+        return leaks_over(planes, cell, v, leak) || holds_probe(cell, v, leak) || holds_chord(cell, v, leak);
     }
 
     /// Far from all other sheets, rims and bends no ball leaks that reaches less than r_p through its seeds' planes.
@@ -333,6 +367,9 @@ struct LeakFinder::Impl {
 
     /// At the ball's places farthest off each plane, and at those over its seeds just out of the zone.
     bool leaks_over(const std::vector<Plane>& planes, const Cell& cell, const Corners& v, Leak& leak) const {
+        if (leads_to(leak.center, planes, cell, v, leak)) {
+            return true;
+        }
         for (const Plane& plane : planes) {
             for (const double side : {1.0, -1.0}) {
                 const Vec3 out = side * plane.normal;
@@ -358,12 +395,16 @@ struct LeakFinder::Impl {
         if (!holds(leak, to) || !hull.contains(to)) {
             return false;
         }
+        const auto is_behind = [&](const Vec3& from, const Plane& plane) {  // or so near that a fold may be between
+            const double height = dot(from - plane.base, plane.normal);
+            const double side = dot(to - plane.base, plane.normal) < 0 ? -1 : 1;
+            return side * height < same_height * plane.protection;
+        };
         Corners behind{};
         std::size_t count = 0;
         for (const std::uint32_t i : v) {
-            if (sites[i].owner != nobody && std::ranges::any_of(planes, [&](const Plane& plane) {
-                    return dot(sites[i].position - plane.base, plane.normal) * dot(to - plane.base, plane.normal) <= 0;
-                })) {
+            if (sites[i].owner != nobody &&
+                std::ranges::any_of(planes, [&](const Plane& plane) { return is_behind(sites[i].position, plane); })) {
                 behind[count++] = i;
             }
         }
@@ -401,14 +442,65 @@ struct LeakFinder::Impl {
         if (!holds(leak, probe.place)) {
             return false;
         }
+        const bool pushed = probe.out == Vec3{};
         for (const std::uint32_t i : v) {
             const Vec3& from = sites[i].position;
-            const bool below = dot(probe.place - from, probe.out) > beyond * faults[probe.fault].protection_radius;
-            if (sites[i].owner != nobody && below && crosses(probe.fault, from, probe.place)) {
-                return describe(i, probe.fault, probe.place, cell, leak);
+            const double height = dot(probe.place - from, probe.out);
+            const double below = (1 - same_height) * faults[probe.fault].protection_radius;  // or hardly above
+            if (sites[i].owner == nobody || (!pushed && height <= below)) {
+                continue;
+            }
+            const std::uint32_t first = pushed ? 0 : probe.fault;
+            const auto last = pushed ? static_cast<std::uint32_t>(faults.size()) : probe.fault + 1;
+            for (std::uint32_t f = first; f < last; ++f) {
+                if (crosses(f, from, probe.place)) {
+                    return describe(i, f, probe.place, cell, leak);
+                }
             }
         }
         return false;
+    }
+
+    /// Do two other vertices find room in the ball, one on either side of a sheet? Past a rim both may see all of the
+    /// ball's seeds. With h the height of the centre over a triangle's plane and t the way from the foot there to
+    /// where a chord runs through the triangle, that chord has r_p on either side of the plane in the ball if
+    /// h² + t² + r_p² (1 + h²/t²) < R², or (|h| + r_p)² < R² where t² < |h| r_p: steep ones are longer.
+    bool holds_chord(const Cell& cell, const Corners& v, Leak& leak) const {
+        const double squared_radius = leak.radius * leak.radius;
+        const auto test = [&](const FaultZone::Ball& near) {
+            const TriangleCorners& c = near.corners;
+            const double protection = beyond * near.radius;
+            const Vec3 normal = unit(area_vector(c));
+            const double height = dot(leak.center - c[0], normal);
+            const double deep = std::abs(height) + protection;
+            if (!near.sheet || normal == Vec3{} || deep * deep >= squared_radius) {
+                return false;
+            }
+            const Vec3 foot = leak.center - height * normal;
+            const Vec3 place = closest_point_on_triangle(foot, c[0], c[1], c[2]);
+            const double t = distance(foot, place);
+            const bool steep = t * t < protection * std::abs(height);
+            const double lean = steep || t == 0 ? t : protection * std::abs(height) / t;
+            const double reach = steep ? deep * deep : height * height + t * t + protection * protection + lean * lean;
+            if (reach >= squared_radius) {
+                return false;
+            }
+            const Vec3 half = protection * normal + (t > 0 ? (height > 0 ? lean : -lean) / t * (place - foot) : Vec3{});
+            for (const Vec3& end : {place + half, place - half}) {
+                if (!hull.contains(end) || is_protected(end) || zone.contains(end)) {
+                    return false;
+                }
+            }
+            for (const std::uint32_t i : v) {
+                if (sites[i].owner != nobody && describe(i, near.fault, place + half, cell, leak)) {
+                    leak.place = place;
+                    return true;
+                }
+            }
+            return false;
+        };
+        const double span = squared_radius - zone.narrowest() * zone.narrowest();
+        return span > 0 && zone.any_near(leak.center, std::sqrt(span), test);
     }
 
     static bool holds(const Leak& ball, const Vec3& p) {

@@ -9,10 +9,12 @@
 /// tessellation of the seeds alone: how much deeper a place is in one ball through a than in another is an affine
 /// function of their centres, so it is largest at a corner of a's Voronoi cell. An edge from a to another vertex can
 /// therefore cross a sheet only if one of these balls reaches a place outside the protection zone that a sheet hides
-/// from a: a *leak*. Looked for in each ball are the places farthest off the planes of the triangles near its seeds,
-/// those right over its seeds, and those over the triangles, just out of the zone. Edges between seeds of faults that
-/// do not both meet the crossed one are leaks as they are. Edges between two other vertices are ruled out likewise, one
-/// of them being hidden from a, unless both see a round a rim: there the margin has to be wide enough.
+/// from a: a *leak*. Looked for in each ball are its centre, the places farthest off the planes of the triangles near
+/// its seeds, those right over its seeds, and those over the triangles, just out of the zone (of any other fault's as
+/// well: what falls into one is pushed out of it). Edges between seeds of faults that do not both meet the crossed one
+/// are leaks as they are. Edges between two other vertices are ruled out likewise, one of them being hidden from a,
+/// unless both see a round a rim: so a ball leaks as well that has room for a chord through a triangle whose ends are
+/// out of the zone.
 
 #include <functional>
 #include <memory>

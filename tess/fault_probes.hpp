@@ -14,7 +14,7 @@ namespace terratet {
 
 struct FaultProbe {
     Vec3 place;               ///< just out of the protection zone
-    Vec3 out;                 ///< away from the triangle that it stands over
+    Vec3 out;                 ///< away from the triangle that it stands over; none when it was pushed out of a zone
     std::uint32_t fault = 0;  ///< whose triangle that is
 };
 

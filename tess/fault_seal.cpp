@@ -13,6 +13,7 @@ namespace {
 constexpr int rounds = 24;
 constexpr double flake_share = 1e-3;  ///< size of a flake, in protection radii
 constexpr double closable = 0.99;     ///< radius of a ball that one flake closes, in protection radii
+constexpr double coverable = 1.4;     ///< radius of a ball that twelve cover, in the same: 0.68 of it is what it takes
 constexpr double widest_kept = 4;     ///< radius of a ball that several may close, in the same
 constexpr double lowest = 1e-4;       ///< height of an added seed over its sheet at least, in spacings
 constexpr double harmful = 1e-3;      ///< distance of a seed from a foreign sheet, in spacings
@@ -121,10 +122,22 @@ class Sealer {
         return true;
     }
 
-    /// What the ball reaches beyond the sheet is kept free, bit by bit.
+    /// What the ball reaches beyond the sheet is kept free, bit by bit; all of a small one at once.
     bool keep_away(const Leak& leak) {
         if (leak.between_seeds || leak.radius > widest_kept * protection(leak)) {
             return false;
+        }
+        if (leak.radius < coverable * protection(leak)) {
+            constexpr double small = 0.5257311121191336;  // an icosahedron's corners, half way out
+            constexpr double large = 0.8506508083520399;
+            for (const double a : {-small, small}) {
+                for (const double b : {-large, large}) {
+                    for (const Vec3& out : {Vec3{a, b, 0}, Vec3{b, 0, a}, Vec3{0, a, b}}) {
+                        add_flake(leak, leak.center + 0.5 * leak.radius * out);
+                    }
+                }
+            }
+            return true;
         }
         const double back = std::min(1.0, 0.9 * protection(leak) / leak.radius);
         add_flake(leak, leak.to + back * (leak.center - leak.to));

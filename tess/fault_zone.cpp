@@ -3,7 +3,6 @@
 #include "tess/fault_zone.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "tess/fault_approach.hpp"
 
@@ -11,7 +10,8 @@ namespace terratet {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
-constexpr std::size_t deepest = 64;  // more than a tree of halves
+constexpr int most_steps = 12;
+constexpr double beyond = 1 + 1e-5;  ///< of the radius: just out of the zone
 
 }  // namespace
 
@@ -21,9 +21,15 @@ FaultZone::FaultZone(std::span<const Fault> faults) {
         auto radius = radii.begin();
         for (const Surface* part : {&faults[f].sheet, &faults[f].margin}) {
             for (const Triangle& t : part->triangles) {
-                balls_.push_back({{part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]}, *radius++});
+                balls_.push_back({{part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]},
+                                  *radius++,
+                                  static_cast<std::uint32_t>(f),
+                                  part == &faults[f].sheet});
             }
         }
+    }
+    for (const Ball& ball : balls_) {
+        narrowest_ = std::min(narrowest_, ball.radius);
     }
     if (!balls_.empty()) {
         split(0, static_cast<std::uint32_t>(balls_.size()));
@@ -57,27 +63,39 @@ void FaultZone::split(std::uint32_t begin, std::uint32_t end) {
 }
 
 bool FaultZone::contains(const Vec3& p) const {
-    std::array<std::uint32_t, deepest> waiting{};
-    std::size_t count = nodes_.empty() ? 0 : 1;
-    while (count > 0) {
-        const std::uint32_t at = waiting[--count];
-        const Node& node = nodes_[at];
-        if (squared_distance(p, node.box.clamped(p)) >= node.radius * node.radius) {
-            continue;
+    return visit([&](const Node& node) { return squared_distance(p, node.box.clamped(p)) < node.radius * node.radius; },
+                 [&](const Ball& ball) {
+                     const auto& c = ball.corners;
+                     return squared_distance(p, closest_point_on_triangle(p, c[0], c[1], c[2])) <
+                            ball.radius * ball.radius;
+                 });
+}
+
+/// Away from the triangle whose zone it is deepest in, again and again.
+std::optional<Vec3> FaultZone::pushed_out(Vec3 p) const {
+    for (int step = 0; step < most_steps; ++step) {
+        double deepest_in = 0;
+        Vec3 next;
+        static_cast<void>(visit(
+            [&](const Node& node) {
+                const double reach = node.radius - deepest_in;
+                return reach > 0 && squared_distance(p, node.box.clamped(p)) < reach * reach;
+            },
+            [&](const Ball& ball) {
+                const Vec3 foot = closest_point_on_triangle(p, ball.corners[0], ball.corners[1], ball.corners[2]);
+                const double away = distance(p, foot);
+                if (away > 0 && ball.radius - away > deepest_in) {
+                    deepest_in = ball.radius - away;
+                    next = foot + beyond * ball.radius / away * (p - foot);
+                }
+                return false;
+            }));
+        if (deepest_in <= 0) {
+            return contains(p) ? std::nullopt : std::optional(p);
         }
-        if (node.right != 0) {
-            waiting[count++] = node.right;
-            waiting[count++] = at + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const auto& [c, radius] = balls_[i];
-            if (squared_distance(p, closest_point_on_triangle(p, c[0], c[1], c[2])) < radius * radius) {
-                return true;
-            }
-        }
+        p = next;
     }
-    return false;
+    return std::nullopt;
 }
 
 }  // namespace terratet

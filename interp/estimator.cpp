@@ -293,6 +293,9 @@ std::string EstimatorPlan::to_string() const {
 
 EstimatorPlan parse_estimator_plan(const std::string& text) {
     EstimatorPlan plan;
+    if (text.empty()) {
+        return plan;
+    }
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         const std::string line = text.substr(begin, end - begin);

@@ -64,7 +64,8 @@ struct EstimatorPlan {
     [[nodiscard]] std::string to_string() const;
 };
 
-/// Throws UsageError as parse_estimator does, also for traits or a calibration that no samples can have.
+/// Of an empty text the default: natural neighbour for all. Throws UsageError as parse_estimator does, also for traits
+/// or a calibration that no samples can have.
 EstimatorPlan parse_estimator_plan(const std::string& text);
 
 struct SiteWeight {

@@ -14,10 +14,9 @@
 #include <array>
 #include <cstddef>
 
-namespace terratet {
+#include "tess/tetrahedron.hpp"
 
-/// Facet k of a cell lies opposite vertex k; seen from inside, (a, b, c) = facet_corners[k] have det(a, b, c) > 0.
-inline constexpr int facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+namespace terratet {
 
 /// From a to the centre of the circle through a, a + u and a + v; computed twice, the second time from what the first
 /// left, since of a needle's centre only what makes it equidistant matters, and that is most of the error.
@@ -43,7 +42,7 @@ std::array<Number, 4> cell_parts(const std::array<Vector, 4>& p, const Vector& c
                                  const std::array<Vector, 4>& splits) {
     std::array<Number, 4> parts{Number(0), Number(0), Number(0), Number(0)};
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto corner = [&](std::size_t i) { return static_cast<std::size_t>(facet_corners[k][i % 3]); };
+        const auto corner = [&](std::size_t i) { return facet_corners[k][i % 3]; };
         for (std::size_t i = 0; i < 3; ++i) {
             const Vector& a = p[corner(i)];
             parts[corner(i)] += dot(cross(center - a, splits[k] - a), p[corner(i + 1)] - p[corner(i + 2)]);

@@ -18,7 +18,6 @@ using Tet = std::array<std::uint32_t, 4>;
 enum class Fate : std::uint8_t { dropped, whole, cut };
 
 /// Corners of facet k as seen from outside the cell.
-constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// One side of the extent; what is inside has a distance ≥ 0.
 struct Plane {
@@ -232,7 +231,7 @@ class Clipper {
         for (std::uint32_t c = 0; c < result_.cells.size(); ++c) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const Tet& cell = result_.cells[c];
-                const Triangle corners{cell[outward[k][0]], cell[outward[k][1]], cell[outward[k][2]]};
+                const Triangle corners{cell[facet_corners[k][0]], cell[facet_corners[k][1]], cell[facet_corners[k][2]]};
                 const std::int64_t beyond = whole_beyond(c, k);
                 if (beyond < 0) {
                     Triangle key = corners;

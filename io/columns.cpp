@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "io/read_table.hpp"
@@ -168,28 +166,6 @@ int find_column(const Table& table, Meaning meaning, const ColumnNames& override
                          " has no such column; it has " + list(table.columns));
     }
     return column;
-}
-
-std::optional<double> parse_bound(const std::string& text) {
-    if (text.empty() || (text.front() != '<' && text.front() != '>')) {
-        return std::nullopt;
-    }
-    const std::size_t begin = text.size() > 1 && text[1] == '=' ? 2 : 1;
-    return parse_number(text.substr(begin));
-}
-
-std::optional<double> parse_number(const std::string& text) {
-    std::size_t begin = text.find_first_not_of(" \t");
-    if (begin == std::string::npos) {
-        return std::nullopt;
-    }
-    if (text[begin] == '+' && begin + 1 < text.size() && text[begin + 1] != '-') {
-        ++begin;
-    }
-    const char* const last = text.data() + text.find_last_not_of(" \t") + 1;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data() + begin, last, value);
-    return error == std::errc() && end == last && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace terratet

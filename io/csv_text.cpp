@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/read_table.hpp"
+#include "io/parse_number.hpp"
 
 namespace terratet {
 namespace {

@@ -63,8 +63,24 @@ double rounded_1_2_5(double value) {
 
 }  // namespace
 
+std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap) {
+    if (gap == FaultGap::collapse && !model.faults.empty() && (format == "VTU" || format == "GLTF")) {
+        return Collapsing::all;
+    }
+    return has_bounds(model) ? std::optional(Collapsing::bounds) : std::nullopt;
+}
+
 OutputRecord export_model(const ModelView& view, const std::string& path, const ExportOptions& options) {
     return format_of(path, options.format).write(view, path, options);
+}
+
+OutputRecord export_model(const ModelSnapshot& model, const std::string& path, const ExportOptions& options) {
+    const Format& format = format_of(path, options.format);
+    if (const auto which = collapsing(model.model(), format.name, options.fault_gap)) {
+        const CollapsedModel& collapsed = model.collapsed(*which);
+        return format.write({collapsed.model, collapsed.mesh, collapsed.cells}, path, options);
+    }
+    return format.write({model.model(), model.mesh(), model.cells()}, path, options);
 }
 
 std::string output_format(const std::string& path, const std::string& override_format) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "interp/lattice.hpp"
+#include "interp/live_model.hpp"
 #include "tess/cells.hpp"
 #include "tess/model.hpp"
 #include "tess/progress.hpp"
@@ -31,9 +32,15 @@ struct ModelView {
     const CellTable& cells;
 };
 
+enum class FaultGap {
+    keep,      ///< the cells between a fault's two sheets
+    collapse,  ///< VTU and glTF: none; the sheets meet on the fault, whose nodes are split (tess/collapse.hpp)
+};
+
 struct ExportOptions {
     std::string format;  ///< overrides the extension: VTU, GLTF, VDB, CSV
     bool overwrite = false;
+    FaultGap fault_gap = FaultGap::keep;
     bool clip = false;           ///< VTU: only cells in the extent, cut at its planes
     bool compress = false;       ///< VTU: zlib blocks
     Vec3 voxel_size{0, 0, 0};    ///< 0: the extent's longest side / 128, over the frame's z_scale in z, rounded to
@@ -67,8 +74,19 @@ struct OutputRecord {
     std::optional<ClippedShapes> clipped = {};  ///< of a clipped VTU
 };
 
-/// Dispatches by extension or options.format. Throws UsageError for an unknown one (lists those there are).
+/// Dispatches by extension or options.format. Every format ends at the ground and at the domain's walls, which have no
+/// width then. Throws UsageError for an unknown format (lists those there are), Error when a mesh without gaps fails
+/// its check.
+OutputRecord export_model(const ModelSnapshot& model, const std::string& path, const ExportOptions& options = {});
+inline OutputRecord export_model(const LiveModel& model, const std::string& path, const ExportOptions& options = {}) {
+    return export_model(*model.snapshot(), path, options);
+}
+
+/// A view as it is, whatever it shows.
 OutputRecord export_model(const ModelView& view, const std::string& path, const ExportOptions& options);
+
+/// How many faults an output of that format shows without width: all, none but the bounds, or none at all.
+std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap);
 
 /// The format that a path would get, upper case; throws UsageError as export_model does. For checks before any work.
 std::string output_format(const std::string& path, const std::string& override_format = {});

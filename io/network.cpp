@@ -2,16 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/network.hpp"
 
-#include <gdal_priv.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <vector>
-
-#include "io/gdal_drivers.hpp"
-#include "io/gdal_scope.hpp"
-#include "io/source.hpp"
 
 namespace terratet {
 
@@ -21,27 +14,6 @@ bool names_network(const std::string& text) {
     return text.find("PG:") != std::string::npos ||
            std::any_of(file_systems.begin(), file_systems.end(),
                        [&](std::string_view name) { return text.find(name) != std::string::npos; });
-}
-
-void keep_needed_gdal_drivers() {
-    const GdalScope registered;
-    const auto needed = [](const char* name) {
-        constexpr std::array inner{"MEM", "Memory"};  // what GDAL itself works with
-        const auto is_name = [&](const char* known) { return known && EQUAL(known, name); };
-        return std::any_of(vector_drivers.begin(), vector_drivers.end(), is_name) ||
-               std::any_of(raster_drivers.begin(), raster_drivers.end(), is_name) ||
-               std::any_of(inner.begin(), inner.end(), is_name);
-    };
-    GDALDriverManager& manager = *GetGDALDriverManager();
-    std::vector<GDALDriver*> others;
-    for (int i = 0; i < manager.GetDriverCount(); ++i) {
-        if (!needed(manager.GetDriver(i)->GetDescription())) {
-            others.push_back(manager.GetDriver(i));
-        }
-    }
-    for (GDALDriver* const driver : others) {
-        manager.DeregisterDriver(driver);
-    }
 }
 
 }  // namespace terratet

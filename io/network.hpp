@@ -12,9 +12,4 @@ namespace terratet {
 /// Does a path, or a whole word of a command line, name something on a network?
 bool names_network(const std::string& text);
 
-/// For a program that uses GDAL through Terratet alone: takes out all of its drivers but those that readers and writers
-/// use, so that a file which has another opened (an overview beside a raster, say) finds none. Some call servers that
-/// the file names, some hang on hostile files. Once, at the start.
-void keep_needed_gdal_drivers();
-
 }  // namespace terratet

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "io/read_positions.hpp"
-#include "io/read_site.hpp"
+#include "io/site_inputs.hpp"
+#include "tess/diagnostics.hpp"
 
 namespace terratet {
 

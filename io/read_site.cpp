@@ -378,4 +378,9 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
     return site;
 }
 
+Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics) {
+    ReadCounts counts;
+    return read_site(inputs, diagnostics, counts);
+}
+
 }  // namespace terratet

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/crs.hpp"
+#include "io/parse_number.hpp"
 #include "io/source.hpp"
 #include "tess/geometry.hpp"
 
@@ -61,12 +62,5 @@ const std::vector<std::string>& aliases(Meaning meaning);
 
 /// A header in normal form: lower case, letters and digits only, without a bracketed or trailing unit.
 std::string normal_header(const std::string& header);
-
-/// A whole cell as a number, independent of the locale; surrounding blanks allowed. nullopt for text or an empty cell;
-/// NaN and infinities are refused too.
-std::optional<double> parse_number(const std::string& text);
-
-/// A bound in place of a number, "<0.005" or ">= 100": what is right of the sign.
-std::optional<double> parse_bound(const std::string& text);
 
 }  // namespace terratet

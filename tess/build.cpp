@@ -10,10 +10,13 @@
 
 #include "tess/box_clip.hpp"
 #include "tess/build_defaults.hpp"
+#include "tess/crossing_edges.hpp"
+#include "tess/density_edition.hpp"
 #include "tess/error.hpp"
+#include "tess/fault.hpp"
 #include "tess/fault_blocks.hpp"
-#include "tess/fault_preparation.hpp"
 #include "tess/long_steps.hpp"
+#include "tess/refine.hpp"
 #include "tess/vertex_demand.hpp"
 
 namespace terratet {
@@ -337,27 +340,32 @@ void assign_values(Model& model, const ValueSource& source) {
     model.vertex_values = {std::move(batch.values), std::move(batch.extrapolation)};
 }
 
-CellStatistics statistics(const Model& model, const Tessellation& tessellation, BuildReport* final_report) {
-    const TetMesh mesh = tessellation.mesh();
-    const CellTable cells = describe_cells(model, mesh);
-    if (final_report != nullptr) {
-        for (std::size_t c = 0; c < cells.reason.size(); ++c) {
-            if (cells.reason[c] != Reason::none && cells.reason[c] != Reason::fault_gap) {
-                ++final_report->refine.skipped[cells.reason[c]];
-            }
+CellStatistics initial_statistics(const TessellatedModel& built) {
+    const TetMesh mesh = built.tessellation.mesh();
+    return cell_statistics(built.model, mesh, measure_cells(built.model, mesh, *built.barriers), *built.barriers);
+}
+
+/// Of all that was refined: the tables that stay, and what the report says of them.
+void describe(TessellatedModel& built, BuildReport& report) {
+    built.mesh = built.tessellation.mesh();
+    built.cells = describe_cells(built.model, built.mesh, *built.barriers);
+    for (const Reason reason : built.cells.reason) {
+        if (reason != Reason::none && reason != Reason::fault_gap) {
+            ++report.refine.skipped[reason];
         }
-        final_report->fault_crossing_edges = fault_crossing_edges(model, mesh).size();
-        final_report->fidelity = fidelity(model, mesh);
-        final_report->empty_blocks = empty_blocks(model, mesh, cells);
     }
-    return cell_statistics(model, mesh, cells);
+    report.fault_crossing_edges = fault_crossing_edges(built.model, built.mesh, *built.barriers).size();
+    report.fidelity = fidelity(built.model, built.mesh, *built.barriers);
+    report.empty_blocks = empty_blocks(built.model, built.mesh, built.cells);
+    report.final = cell_statistics(built.model, built.mesh, built.cells, *built.barriers);
 }
 
 }  // namespace
 
-Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
-            const Progress& progress) {
-    Model model;
+std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, const ValueSourceFactory& factory,
+                                        BuildReport& report, const Progress& progress) {
+    auto built = std::make_unique<TessellatedModel>();
+    Model& model = built->model;
     canonicalise(site, report);
     static_cast<Site&>(model) = std::move(site);
     resolve_resolution(options, model, report);
@@ -369,7 +377,8 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
         prepare_boundary(options, model, report, progress);
         name_regions(options, model);
     }
-    const FaultProximity proximity = model_proximity(model);
+    built->barriers = model_proximity(model);
+    const FaultProximity& proximity = *built->barriers;
     InitialVertices initial(model);
     {
         const Stopwatch watch(report.seconds["density"]);
@@ -397,11 +406,11 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
         const Stopwatch watch(estimating);
         return source(queries);
     };
-    Tessellation tessellation;
+    Tessellation& tessellation = built->tessellation;
     {
         const Stopwatch watch(report.seconds["refine"]);
         insert_vertices(tessellation, model.vertices, [&] { report_progress(progress, "tessellate", 0); });
-        report.initial = statistics(model, tessellation, nullptr);
+        report.initial = initial_statistics(*built);
         if (options.refine_enabled) {
             RefineOptions refine_options = options.refine;
             refine_options.progress = progress;
@@ -411,10 +420,21 @@ Model build(Site site, const BuildOptions& options, const ValueSourceFactory& fa
             report.seconds["refine"] -= estimating - before;
         }
         model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
-        report.final = statistics(model, tessellation, &report);
+        describe(*built, report);
     }
     report.seconds["estimate"] = estimating;
-    return model;
+    return built;
+}
+
+BuildOptions options_of(const Model& model) {
+    BuildOptions options;
+    options.extent = model.domain.extent;
+    options.criteria = model.criteria;
+    options.region_names = model.region_names;
+    options.density = model.density;
+    options.faults = model.fault_options;
+    options.estimator = model.estimator;
+    return options;
 }
 
 }  // namespace terratet

@@ -6,55 +6,38 @@
 /// the command line, tests and benchmarks take.
 
 #include <functional>
-#include <map>
-#include <string>
+#include <memory>
+#include <optional>
 
+#include "tess/build_options.hpp"
 #include "tess/cells.hpp"
-#include "tess/diagnostics.hpp"
-#include "tess/model.hpp"
+#include "tess/fault_proximity.hpp"
 #include "tess/progress.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 
-struct BuildOptions {
-    Box3 extent;        ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
-    double pad = -1;    ///< negative: l_max in plan, a quarter of the data's height (l_min to l_max) vertically
-    Criteria criteria;  ///< l_min 0: the data's diagonal/100, those far off left out (site_box.hpp); l_max 0: 4 l_min
-    DensityMode density = DensityMode::canonical;
-    std::vector<RegionName> region_names;  ///< points frame-local
-    FaultOptions faults;
-    bool separate_faults = false;  ///< faults that run side by side and nowhere meet lower the spacing where affordable
-    RefineOptions refine;
-    bool refine_enabled = true;  ///< false stops after the initial tessellation
-    std::string estimator;       ///< recorded in the model; the source below does the work
-};
-
-struct BuildReport {
-    std::size_t coincident = 0;      ///< samples merged
-    std::size_t outside_extent = 0;  ///< samples beyond a given extent: they feed the estimator only
-    DensityResult density;
-    std::vector<FaultAccount> faults;
-    std::size_t seeds = 0;
-    std::size_t domain_vertices = 0;
-    CellStatistics initial;
-    RefineReport refine;
-    CellStatistics final;
-    std::size_t fault_crossing_edges = 0;
-    std::vector<Fidelity> fidelity;
-    std::vector<EmptyBlock> empty_blocks;
-    std::map<std::string, double> seconds;  ///< density, boundary, refine, estimate
-    Diagnostics diagnostics;
+/// A model with what is made of it on the way. The barriers look at the model, so it stays where it is.
+struct TessellatedModel {
+    Model model;
+    std::optional<FaultProximity> barriers;  ///< model_proximity(model)
+    Tessellation tessellation;
+    TetMesh mesh;
+    CellTable cells;
 };
 
 /// Makes the estimator once samples are merged and faults are prepared: it sees the site's samples and the faults'
-/// sheets, in frame-local coordinates, and both outlive it.
+/// sheets, in frame-local coordinates; both stay where they are, in the model that is returned.
 using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
 
 /// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
 /// is exceeded, UsageError when the criteria ask for more than refine.max_vertices, before any is made, when the point
 /// that names a region lies in none, or two of them in the same. The result does not depend on the order of the site's
 /// rows (R6).
-Model build(Site site, const BuildOptions& options, const ValueSourceFactory& factory, BuildReport& report,
-            const Progress& progress = {});
+std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, const ValueSourceFactory& factory,
+                                        BuildReport& report, const Progress& progress = {});
+
+/// What the model was built with, so that its site builds the same again.
+BuildOptions options_of(const Model& model);
 
 }  // namespace terratet

@@ -4,7 +4,7 @@
 /// \file
 /// What a build takes where nothing is given: resolution, extent, the outline of the domain. Private to this floor.
 
-#include "tess/build.hpp"
+#include "tess/build_options.hpp"
 
 namespace terratet {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tess/cells.hpp"
+#include "tess/gap_cell.hpp"
 
 namespace terratet {
 
@@ -28,9 +28,9 @@ int steps_below(double value, double limit) {
 
 }  // namespace
 
-CleanUp::CleanUp(Tessellation::Kernel& kernel, LiveVertices& vertices, const InsertionRule& rule,
-                 const ConflictSearch& search, const Criteria& criteria, const Frame& frame, const Progress& progress)
-    : kernel_(kernel),
+CleanUp::CleanUp(delaunay::Core& core, LiveVertices& vertices, const InsertionRule& rule, const ConflictSearch& search,
+                 const Criteria& criteria, const Frame& frame, const Progress& progress)
+    : core_(core),
       vertices_(vertices),
       rule_(rule),
       search_(search),
@@ -38,18 +38,18 @@ CleanUp::CleanUp(Tessellation::Kernel& kernel, LiveVertices& vertices, const Ins
       frame_(frame),
       progress_(progress),
       sharpest_(sharpness(std::cos((criteria.dihedral_deg + 0.01) * std::numbers::pi / 180))),
-      handles_(kernel.vertices.size()) {
-    for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
+      handles_(core.vertices.size()) {
+    for (const auto vertex : core_.triangulation.finite_vertex_handles()) {
         handles_[vertex->info()] = vertex;
     }
 }
 
 CleanUpReport CleanUp::run() {
-    if (kernel_.triangulation.dimension() < 3) {
+    if (core_.triangulation.dimension() < 3) {
         return report_;
     }
     std::vector<Cell> cells;
-    for (const Cell cell : kernel_.triangulation.finite_cell_handles()) {
+    for (const Cell cell : core_.triangulation.finite_cell_handles()) {
         if (!clearly_above_limits(cell)) {  // a list of all would be a tenth of the memory
             cells.push_back(cell);
         }
@@ -89,7 +89,7 @@ bool CleanUp::sweep(const std::vector<Patient>& waiting) {
 }
 
 int CleanUp::severity(const JudgedCell& cell) const {
-    if (gap_fault(cell.vertices, kernel_.vertices) >= 0 || rule_.smooth(cell)) {
+    if (gap_fault(cell.vertices, core_.vertices) >= 0 || rule_.smooth(cell)) {
         return 0;
     }
     const double angle = std::acos(cosine_of(cell_sharpness(cell.points))) * 180 / std::numbers::pi;
@@ -101,7 +101,7 @@ void CleanUp::add(const JudgedCell& cell, State& state) const {
     if (const int how_bad = severity(cell); how_bad > 0) {
         state.severities.push_back(how_bad);
     }
-    if (gap_fault(cell.vertices, kernel_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
+    if (gap_fault(cell.vertices, core_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
         return;
     }
     if (const Proposal proposal = rule_.propose(cell); proposal.reason == Reason::none) {
@@ -119,7 +119,7 @@ bool CleanUp::better(State& after, State& before) const {
 }
 
 bool CleanUp::movable(std::uint32_t vertex) const {
-    const Vertex& v = kernel_.vertices[vertex];
+    const Vertex& v = core_.vertices[vertex];
     return v.role == Role::inserted && handles_[vertex] != delaunay::VertexHandle() && !rule_.near_box(v.position);
 }
 
@@ -133,7 +133,7 @@ std::vector<CleanUp::Patient> CleanUp::patients_after(const std::vector<Patient>
     }
     for (const std::uint32_t vertex : changed_) {
         if (handles_[vertex] != delaunay::VertexHandle()) {
-            kernel_.triangulation.finite_incident_cells(handles_[vertex], std::back_inserter(cells));
+            core_.triangulation.finite_incident_cells(handles_[vertex], std::back_inserter(cells));
         }
     }
     return below_limits(cells);
@@ -177,7 +177,7 @@ std::optional<Cell> CleanUp::cell_of(const Patient& patient) const {
     int k = 0;
     int l = 0;
     const bool exists =
-        kernel_.triangulation.is_cell(handles_[v[0]], handles_[v[1]], handles_[v[2]], handles_[v[3]], cell, i, j, k, l);
+        core_.triangulation.is_cell(handles_[v[0]], handles_[v[1]], handles_[v[2]], handles_[v[3]], cell, i, j, k, l);
     return exists ? std::optional(cell) : std::nullopt;
 }
 
@@ -185,7 +185,7 @@ std::optional<Cell> CleanUp::cell_of(const Patient& patient) const {
 void CleanUp::note_change(const std::vector<Cell>& cells) {
     for (const Cell cell : cells) {
         for (int k = 0; k < 4; ++k) {
-            if (!kernel_.triangulation.is_infinite(cell->vertex(k))) {
+            if (!core_.triangulation.is_infinite(cell->vertex(k))) {
                 changed_.insert(cell->vertex(k)->info());
             }
         }
@@ -206,7 +206,7 @@ bool CleanUp::treat(const Patient& patient) {
 std::vector<std::uint32_t> CleanUp::neighbours(const Patient& patient) const {
     std::vector<delaunay::VertexHandle> link;
     for (const std::uint32_t vertex : patient.vertices) {
-        kernel_.triangulation.finite_adjacent_vertices(handles_[vertex], std::back_inserter(link));
+        core_.triangulation.finite_adjacent_vertices(handles_[vertex], std::back_inserter(link));
     }
     std::vector<std::uint32_t> result;
     for (const auto vertex : link) {
@@ -222,8 +222,8 @@ std::vector<std::uint32_t> CleanUp::neighbours(const Patient& patient) const {
 /// Takes the vertex out and looks whether the hole is better without it, else with it elsewhere; failing both puts it
 /// back, which restores the very same cells.
 bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
-    auto& triangulation = kernel_.triangulation;
-    const Vec3 old_place = kernel_.vertices[vertex].position;
+    auto& triangulation = core_.triangulation;
+    const Vec3 old_place = core_.vertices[vertex].position;
     State star_before;
     Vec3 centre;
     double reach = std::numeric_limits<double>::infinity();
@@ -256,9 +256,9 @@ bool CleanUp::mend(std::uint32_t vertex, const Patient& patient) {
         return true;
     }
 
-    std::array<std::uint64_t, 5> seed{kernel_.vertices[vertex].id};
+    std::array<std::uint64_t, 5> seed{core_.vertices[vertex].id};
     for (std::size_t i = 0; i < 4; ++i) {
-        seed[i + 1] = kernel_.vertices[patient.vertices[i]].id;
+        seed[i + 1] = core_.vertices[patient.vertices[i]].id;
     }
     BallPoints ball(seed);
     std::vector<Vec3> places{centre};
@@ -303,7 +303,7 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
     if (!rule_.allows(place)) {
         return false;
     }
-    auto& triangulation = kernel_.triangulation;
+    auto& triangulation = core_.triangulation;
     delaunay::Triangulation::Locate_type where{};
     int li = 0;
     int lj = 0;
@@ -364,10 +364,10 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
 }
 
 void CleanUp::put(std::uint32_t vertex, const Vec3& place, Cell near) {
-    const auto handle = kernel_.triangulation.insert(delaunay::to_cgal(place), near);
+    const auto handle = core_.triangulation.insert(delaunay::to_cgal(place), near);
     handle->info() = vertex;
     handles_[vertex] = handle;
-    kernel_.vertices[vertex].position = place;
+    core_.vertices[vertex].position = place;
 }
 
 }  // namespace terratet

@@ -33,10 +33,10 @@ struct CleanUpReport {
 
 class CleanUp {
   public:
-    CleanUp(Tessellation::Kernel& kernel, LiveVertices& vertices, const InsertionRule& rule,
-            const ConflictSearch& search, const Criteria& criteria, const Frame& frame, const Progress& progress);
+    CleanUp(delaunay::Core& core, LiveVertices& vertices, const InsertionRule& rule, const ConflictSearch& search,
+            const Criteria& criteria, const Frame& frame, const Progress& progress);
 
-    /// Removed vertices are gone from the triangulation but still in the kernel's table: removed() tells which.
+    /// Removed vertices are gone from the triangulation but still in the core's table: removed() tells which.
     CleanUpReport run();
 
     [[nodiscard]] const std::vector<std::uint32_t>& removed() const { return removed_; }
@@ -82,7 +82,7 @@ class CleanUp {
     bool try_place(std::uint32_t vertex, const Vec3& place, const State& star_before);
     void put(std::uint32_t vertex, const Vec3& place, delaunay::Cell near);
 
-    Tessellation::Kernel& kernel_;
+    delaunay::Core& core_;
     LiveVertices& vertices_;
     const InsertionRule& rule_;
     const ConflictSearch& search_;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "tess/cells.hpp"
 #include "tess/clean_up.hpp"
+#include "tess/gap_cell.hpp"
 
 namespace terratet {
 
@@ -40,7 +40,7 @@ bool CleanUp::refill_around(const Patient& patient) {
         }
         for (const auto& group : groups) {
             std::array<std::uint64_t, 3> seed{};
-            std::ranges::transform(group, seed.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
+            std::ranges::transform(group, seed.begin(), [&](std::uint32_t v) { return core_.vertices[v].id; });
             BallPoints ball(seed);
             const int tries = group.size() < 3 ? refill_count : refill_count_of_three;
             for (int i = 0; i < tries; ++i) {
@@ -57,7 +57,7 @@ bool CleanUp::refill_around(const Patient& patient) {
 /// or, with `ball`, around them, until there are none. Accepts those in their stead if that is better; else restores
 /// the very same cells.
 bool CleanUp::refill(const std::vector<std::uint32_t>& vertices, BallPoints* ball) {
-    auto& triangulation = kernel_.triangulation;
+    auto& triangulation = core_.triangulation;
     const std::size_t first = vertices_.size();
     State before;
     std::set<Cell> fresh;
@@ -102,7 +102,7 @@ bool CleanUp::refill(const std::vector<std::uint32_t>& vertices, BallPoints* bal
         vertices_.pop();
     }
     for (const std::uint32_t vertex : vertices) {
-        put(vertex, kernel_.vertices[vertex].position, anchor->cell());
+        put(vertex, core_.vertices[vertex].position, anchor->cell());
     }
     return false;
 }
@@ -128,7 +128,7 @@ bool CleanUp::insert_into(std::set<Cell>& fresh, BallPoints* ball, State& before
             add(judged(cell), before);
         }
     }
-    auto& triangulation = kernel_.triangulation;
+    auto& triangulation = core_.triangulation;
     const auto handle = triangulation.insert_in_hole(delaunay::to_cgal(place), zone_.cells.begin(), zone_.cells.end(),
                                                      zone_.boundary.front().first, zone_.boundary.front().second);
     handle->info() = vertices_.append(place);
@@ -143,7 +143,7 @@ std::optional<std::pair<JudgedCell, Cell>> CleanUp::worst_open(const std::set<Ce
     double most = 1;
     for (const Cell cell : cells) {
         const JudgedCell judged_cell = judged(cell);
-        if (gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
+        if (gap_fault(judged_cell.vertices, core_.vertices) >= 0) {
             continue;
         }
         const double violation = rule_.violation_in_force(judged_cell);
@@ -160,11 +160,11 @@ std::optional<std::pair<JudgedCell, Cell>> CleanUp::worst_open(const std::set<Ce
 /// Whether zone_, which is that of `place`, holds finite cells alone and no vertex nearer than l_min.
 bool CleanUp::zone_clear_of(const Vec3& place) const {
     const double l_min = rule_.resolution().l_min(place);
-    return std::ranges::none_of(zone_.cells, [&](Cell cell) { return kernel_.triangulation.is_infinite(cell); }) &&
+    return std::ranges::none_of(zone_.cells, [&](Cell cell) { return core_.triangulation.is_infinite(cell); }) &&
            std::ranges::none_of(zone_.boundary, [&](const Facet& facet) {
                for (int k = 1; k < 4; ++k) {
                    const auto corner = facet.first->vertex((facet.second + k) & 3);
-                   if (!kernel_.triangulation.is_infinite(corner) &&
+                   if (!core_.triangulation.is_infinite(corner) &&
                        distance(delaunay::from_cgal(corner->point()), place) < l_min) {
                        return true;
                    }

@@ -30,7 +30,7 @@ Edge edge_of(std::uint32_t a, std::uint32_t b) {
 class CollapseImage::Cutter {
   public:
     Cutter(CollapseImage& image, const Model& model, const std::vector<char>& selected)
-        : image_(image), model_(model), crossings_(model, selected, collect_edges()) {
+        : image_(image), model_(model), crossings_(model.faults, model.domain.extent, selected, collect_edges()) {
         image_.index_stars();
         find_faults();
     }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/collapse_fill.hpp"
+#include "tess/tetrahedron.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +12,6 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffU;
 
 /// Corners of facet k as seen from outside the cell.
-constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 using Edge = std::array<std::uint32_t, 2>;
 
@@ -82,7 +82,7 @@ class Filler {
                 const std::int32_t next = mesh_.neighbours[c][k];
                 const std::uint32_t beyond = next < 0 ? none : owner_[static_cast<std::size_t>(next)];
                 const auto& v = mesh_.cells[c];
-                const Triangle facet{v[outward[k][0]], v[outward[k][1]], v[outward[k][2]]};
+                const Triangle facet{v[facet_corners[k][0]], v[facet_corners[k][1]], v[facet_corners[k][2]]};
                 if (beyond == none) {
                     filling_.cells.push_back({{owner_[c], facet[0], facet[1], facet[2]}, c});
                 } else if (owner_[c] < beyond) {

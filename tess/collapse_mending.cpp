@@ -51,7 +51,7 @@ std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<Corners
     sides.reserve(4 * cells.size());
     for (std::uint32_t c = 0; c < cells.size(); ++c) {
         for (std::uint32_t k = 0; k < 4; ++k) {
-            const auto& o = outward_corners[k];
+            const auto& o = facet_corners[k];
             Triangle key{cells[c][o[0]], cells[c][o[1]], cells[c][o[2]]};
             std::ranges::sort(key);
             sides.push_back({key, c, k});

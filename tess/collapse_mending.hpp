@@ -4,7 +4,7 @@
 /// \file
 /// Internal: the sharp cells of a collapsed mesh get better shapes (cut_mending.hpp).
 
-#include "tess/collapse.hpp"
+#include "tess/collapsed_model.hpp"
 
 namespace terratet {
 

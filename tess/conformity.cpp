@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/conformity.hpp"
+#include "tess/tetrahedron.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -13,7 +14,6 @@ namespace {
 constexpr std::size_t listed = 20;  ///< places of offenders
 
 /// Corners of facet k as seen from outside the cell.
-constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// One cell's side of a facet.
 template <class Key>
@@ -93,7 +93,7 @@ Conformity check_conformity(const TetMesh& mesh, std::span<const std::int32_t> r
             offends(result.not_positive, c);
         }
         for (std::uint32_t k = 0; k < 4; ++k) {
-            const auto& o = outward[k];
+            const auto& o = facet_corners[k];
             sides.push_back(side_of(Triangle{v[o[0]], v[o[1]], v[o[2]]}, c, k));
         }
     }
@@ -103,7 +103,7 @@ Conformity check_conformity(const TetMesh& mesh, std::span<const std::int32_t> r
     for_each_facet(sides, [&](auto begin, auto end) {
         if (end - begin == 1) {
             const auto& v = mesh.cells[begin->cell];
-            const auto& o = outward[begin->facet];
+            const auto& o = facet_corners[begin->facet];
             single.push_back(
                 side_of(std::array<Vec3, 3>{mesh.points[v[o[0]]], mesh.points[v[o[1]]], mesh.points[v[o[2]]]},
                         begin->cell, begin->facet));

@@ -85,7 +85,7 @@ class Search {
     /// No facet of three cells: where cells are flat to rounding, places do not tell.
     [[nodiscard]] bool fits(const CutChange& change) const {
         return std::ranges::all_of(change.fresh, [&](const Cell& cell) {
-            return std::ranges::all_of(outward_corners, [&](const auto& o) {
+            return std::ranges::all_of(facet_corners, [&](const auto& o) {
                 const std::array facet{cell.corners[o[0]], cell.corners[o[1]], cell.corners[o[2]]};
                 const auto has_it = [&](const Cell& other) {
                     return std::ranges::all_of(facet, [&](std::uint32_t v) { return CutStars::has(other, v); });
@@ -129,7 +129,7 @@ class Search {
                 std::array<Vec3, 3> after{};
                 bool has_b = false;
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const std::uint32_t v = cell.corners[outward_corners[k][i]];
+                    const std::uint32_t v = cell.corners[facet_corners[k][i]];
                     before[i] = stars_.point(v);
                     after[i] = v == a ? stars_.point(b) : before[i];
                     has_b |= v == b;
@@ -266,8 +266,8 @@ class Search {
         if (other == CutStars::none || stars_.cell(other).part != stars_.cell(cell_).part) {
             return;
         }
-        const std::array<std::uint32_t, 3> facet{v[outward_corners[k][0]], v[outward_corners[k][1]],
-                                                 v[outward_corners[k][2]]};
+        const std::array<std::uint32_t, 3> facet{v[facet_corners[k][0]], v[facet_corners[k][1]],
+                                                 v[facet_corners[k][2]]};
         const auto apex = std::ranges::find_if(stars_.cell(other).corners, [&](std::uint32_t corner) {
             return std::ranges::find(facet, corner) == facet.end();
         });

@@ -52,7 +52,7 @@ bool CutStars::has(const CutMesh::Cell& cell, std::uint32_t v) {
 
 std::uint32_t CutStars::beyond(std::uint32_t c, std::size_t k) const {
     const Corners& v = cell(c).corners;
-    const auto& o = outward_corners[k];
+    const auto& o = facet_corners[k];
     for (const std::uint32_t other : star_[v[o[0]]]) {
         if (other != c && has(cell(other), v[o[1]]) && has(cell(other), v[o[2]])) {
             return other;
@@ -67,7 +67,7 @@ bool CutStars::is_kept(std::uint32_t c, std::size_t k) const {
         return cell(other).part != cell(c).part;
     }
     const Corners& v = cell(c).corners;
-    const auto& o = outward_corners[k];
+    const auto& o = facet_corners[k];
     return (faces_[v[o[0]]] & faces_[v[o[1]]] & faces_[v[o[2]]]) == 0;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tess/geometry.hpp"
+#include "tess/tetrahedron.hpp"
 
 namespace terratet {
 
@@ -39,9 +40,6 @@ struct CutMesh {
     Box3 box;               ///< the mesh ends at its faces, or at surfaces that stay
     double least_edge = 0;  ///< a cell with a shorter one is worse for it
 };
-
-/// Corners of facet k as seen from outside the cell.
-inline constexpr std::size_t outward_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// A mesh with the cells at each point, and what follows from them.
 class CutStars {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The kernel of a tessellation: CGAL's dynamic Delaunay triangulation with our vertex table. Private to this floor;
-/// the only header that names CGAL, included by the few files that insert, remove or walk.
+/// What is behind a tessellation: CGAL's dynamic Delaunay triangulation with our vertex table. The only header of the
+/// floor that names CGAL's triangulation, included by the few files that insert, remove or walk.
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -11,7 +11,7 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
-#include "tess/tessellation.hpp"
+#include "tess/tet_mesh.hpp"
 
 namespace terratet::delaunay {
 
@@ -45,14 +45,11 @@ inline Vec3 from_cgal(const Point& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-}  // namespace terratet::delaunay
-
-namespace terratet {
-
-struct Tessellation::Kernel {
-    delaunay::Triangulation triangulation;
+/// What is behind a tessellation.
+struct Core {
+    Triangulation triangulation;
     std::vector<Vertex> vertices;  ///< ascending id; a CGAL vertex's info is its index here
     std::uint64_t next_id = 0;
 };
 
-}  // namespace terratet
+}  // namespace terratet::delaunay

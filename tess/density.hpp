@@ -11,15 +11,13 @@
 ///  D3  The result does not depend on the order of the input.
 ///  V1  Kept samples carry their measured values. (Dropped ones leave the tessellation, never the model.)
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "tess/fault_proximity.hpp"
-#include "tess/resolution.hpp"
-#include "tess/samples.hpp"
-
 namespace terratet {
 
+/// Which samples become vertices (paper, 4.1 c).
 enum class DensityMode {
     canonical,  ///< in canonical order, keep a sample unless a kept one is nearer than l_min. Default
     paper,      ///< while a Delaunay edge is shorter than l_min, delete its end with the smaller nearest-neighbour
@@ -31,13 +29,5 @@ struct DensityResult {
     std::size_t deleted = 0;                 ///< too near a kept one
     std::vector<std::uint32_t> near_faults;  ///< in a protection zone, ascending
 };
-
-/// D1 with different l_min at two samples: the smaller one. D2: that of the dropped sample.
-/// \pre samples are merged (no coincident positions) and in canonical order. O(n) for canonical, O(n log n) for paper.
-DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
-                           const FaultProximity& faults);
-
-/// The same with one l_min everywhere.
-DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults);
 
 }  // namespace terratet

@@ -59,6 +59,10 @@ std::vector<Vec3> faces_with(const Box3& box, const Vec3& a, const Vec3& b) {
     return faces;
 }
 
+TriangleTree tree_of(const Surface& surface) {
+    return {surface.vertices, surface.triangles};
+}
+
 /// A place in a rim from which barriers go on.
 struct Start {
     struct Use {
@@ -102,22 +106,23 @@ struct Start {
 struct Going {
     std::vector<EdgePlace> edges;  ///< of the rim that goes on, each in its triangle's sense
     std::set<std::size_t> hosts;   ///< faults on which it ends
-    TriangleTree read{{}};         ///< the surface as it was read
-    TriangleTree margin{{}};       ///< the sheet goes on in it for a little
-    TriangleTree sheet{{}};
-    TriangleTree beyond{{}};  ///< what was made, once done
+    TriangleTree read;             ///< the surface as it was read
+    TriangleTree margin;           ///< the sheet goes on in it for a little
+    TriangleTree sheet;
+    TriangleTree beyond;  ///< what was made, once done
     bool done = false;
 };
 
 class Continuation {
   public:
-    Continuation(const Model& model, bool horizons) : model_(model), extent_(model.domain.extent) {
-        reach_ = bounding_box(model.samples.positions);
-        if (!model.domain.hull.empty()) {
-            reach_.extend(model.domain.hull.lo);
-            reach_.extend(model.domain.hull.hi);
+    Continuation(const Site& site, const Domain& domain, std::span<const Fault> faults, bool horizons)
+        : site_(site), faults_(faults), extent_(domain.extent) {
+        reach_ = bounding_box(site.samples.positions);
+        if (!domain.hull.empty()) {
+            reach_.extend(domain.hull.lo);
+            reach_.extend(domain.hull.hi);
         }
-        for (const Fault& fault : model.faults) {
+        for (const Fault& fault : faults) {
             barriers_.push_back({bars(fault, horizons), {}, {}});
             spacing_ = std::max(spacing_, fault.spacing);
         }
@@ -125,7 +130,7 @@ class Continuation {
         find_rims();
     }
 
-    std::vector<Barrier> run() {
+    std::vector<EstimationBarrier> run() {
         prepare();
         for (std::size_t count = 0; count < going_.size(); ++count) {
             const std::size_t f = next();
@@ -134,7 +139,7 @@ class Continuation {
                     march(*start, f);
                 }
             }
-            going_[f].beyond = TriangleTree(strips(f, all_rows()));
+            going_[f].beyond = tree_of(strips(f, all_rows()));
             going_[f].done = true;
         }
         const std::vector<std::size_t> rows = rows_that_count();
@@ -149,17 +154,17 @@ class Continuation {
 
   private:
     void find_rims() {
-        const EdgeUses uses = edge_uses(model_.faults, [&](const Fault& fault) {
-            return barriers_[static_cast<std::size_t>(&fault - model_.faults.data())].bars;
+        const EdgeUses uses = edge_uses(faults_, [&](const Fault& fault) {
+            return barriers_[static_cast<std::size_t>(&fault - faults_.data())].bars;
         });
-        const EdgeUses bounds = edge_uses(model_.faults, [](const Fault& fault) { return is_bound(fault.sheet.kind); });
+        const EdgeUses bounds = edge_uses(faults_, [](const Fault& fault) { return is_bound(fault.sheet.kind); });
         std::map<EdgePlace, std::vector<std::size_t>> inside;  // an edge between two triangles of a sheet: that sheet
         std::vector<std::vector<EdgePlace>> ends(barriers_.size());
         for (std::size_t f = 0; f < barriers_.size(); ++f) {
             if (!barriers_[f].bars) {
                 continue;
             }
-            const Surface& sheet = model_.faults[f].sheet;
+            const Surface& sheet = faults_[f].sheet;
             const FaultMesh mesh{sheet.vertices, sheet.triangles};
             const std::vector<RimEdge> rim = rim_edges(mesh);
             const std::vector<Vec3> normals = rim_normals(mesh, rim);
@@ -171,7 +176,7 @@ class Continuation {
                     barriers_[f].rims.push_back(edge);
                 }
             }
-            for (const auto& [edge, count] : edge_uses({&model_.faults[f], 1}, [](const Fault&) { return true; })) {
+            for (const auto& [edge, count] : edge_uses({&faults_[f], 1}, [](const Fault&) { return true; })) {
                 if (count > 1 && uses.at(edge) > count) {
                     inside[edge].push_back(f);
                 }
@@ -221,9 +226,9 @@ class Continuation {
             if (going_[f].edges.empty()) {
                 continue;
             }
-            const Fault& fault = model_.faults[f];
+            const Fault& fault = faults_[f];
             Surface read;
-            for (const Surface& surface : model_.surfaces) {
+            for (const Surface& surface : site_.surfaces) {
                 if (surface.name == fault.name && surface.kind == fault.sheet.kind) {
                     const auto first = static_cast<std::uint32_t>(read.vertices.size());
                     read.vertices.insert(read.vertices.end(), surface.vertices.begin(), surface.vertices.end());
@@ -232,9 +237,9 @@ class Continuation {
                     }
                 }
             }
-            going_[f].read = TriangleTree(read);
-            going_[f].margin = TriangleTree(fault.margin);
-            going_[f].sheet = TriangleTree(fault.sheet);
+            going_[f].read = tree_of(read);
+            going_[f].margin = tree_of(fault.margin);
+            going_[f].sheet = tree_of(fault.sheet);
         }
     }
 
@@ -388,7 +393,7 @@ class Continuation {
 
     /// The strips between the ways from the ends of each edge, by way of the given rows to the last.
     [[nodiscard]] Surface strips(std::size_t f, const std::vector<std::size_t>& rows) const {
-        Surface surface{model_.faults[f].name, model_.faults[f].sheet.kind, {}, {}, {}};
+        Surface surface{faults_[f].name, faults_[f].sheet.kind, {}, {}, {}};
         std::map<Vec3, std::uint32_t> number;
         const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
             if (a == b || b == c || c == a) {
@@ -433,11 +438,12 @@ class Continuation {
         }
     }
 
-    const Model& model_;
+    const Site& site_;
+    std::span<const Fault> faults_;
     Box3 extent_;
     Box3 reach_;
     double spacing_ = 0;
-    std::vector<Barrier> barriers_;
+    std::vector<EstimationBarrier> barriers_;
     std::vector<Going> going_;
     std::map<Vec3, Start> starts_;
     bool within_ = false;  ///< something goes on within the extent
@@ -445,11 +451,11 @@ class Continuation {
 
 }  // namespace
 
-Barriers sheets_as_barriers(std::span<const Fault> faults) {
+EstimationBarriers sheets_as_barriers(std::span<const Fault> faults) {
     const EdgeUses uses = edge_uses(faults, [](const Fault& fault) { return bars(fault, false); });
-    Barriers barriers;
+    EstimationBarriers barriers;
     for (const Fault& fault : faults) {
-        Barrier& barrier = barriers.soft.emplace_back(Barrier{bars(fault, false), {}, {}});
+        EstimationBarrier& barrier = barriers.soft.emplace_back(EstimationBarrier{bars(fault, false), {}, {}});
         for (const Triangle& t : barrier.bars ? fault.sheet.triangles : std::vector<Triangle>{}) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const EdgePlace edge = sorted(fault.sheet.vertices[t[i]], fault.sheet.vertices[t[(i + 1) % 3]]);
@@ -462,29 +468,25 @@ Barriers sheets_as_barriers(std::span<const Fault> faults) {
     return barriers;
 }
 
-Barriers estimation_barriers(const Model& model) {
-    Barriers barriers;
-    Continuation soft(model, false);
+EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Fault> faults) {
+    EstimationBarriers barriers;
+    Continuation soft(site, domain, faults, false);
     const bool within = soft.within();
     barriers.soft = soft.run();
-    barriers.covered = within ? Box3{} : model.domain.extent;
-    for (const Property& property : model.properties) {
+    barriers.covered = within ? Box3{} : domain.extent;
+    for (const Property& property : site.properties) {
         barriers.hard_for.push_back(property.hard_horizons);
     }
     const bool horizons =
-        std::ranges::any_of(model.faults, [](const Fault& fault) { return fault.sheet.kind == SurfaceKind::horizon; });
-    if (horizons && std::ranges::any_of(model.properties, &Property::hard_horizons)) {
-        Continuation hard(model, true);
+        std::ranges::any_of(faults, [](const Fault& fault) { return fault.sheet.kind == SurfaceKind::horizon; });
+    if (horizons && std::ranges::any_of(site.properties, &Property::hard_horizons)) {
+        Continuation hard(site, domain, faults, true);
         barriers.covered = hard.within() ? Box3{} : barriers.covered;
         barriers.hard = hard.run();
     } else {
         barriers.hard_for.clear();
     }
     return barriers;
-}
-
-FaultProximity model_proximity(const Model& model) {
-    return FaultProximity(model.faults, estimation_barriers(model));
 }
 
 }  // namespace terratet

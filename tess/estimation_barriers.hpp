@@ -14,31 +14,33 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier.hpp"
+#include "tess/domain.hpp"
 #include "tess/fault_rims.hpp"
-#include "tess/model.hpp"
+#include "tess/site.hpp"
 
 namespace terratet {
 
 /// What bars estimation of a fault.
-struct Barrier {
+struct EstimationBarrier {
     bool bars = false;            ///< its sheet does, and the rest counts
     Surface beyond;               ///< what goes on from the sheet
     std::vector<EdgePlace> rims;  ///< free ones, of both
 };
 
 /// In step with the faults.
-struct Barriers {
-    std::vector<Barrier> soft;   ///< for most properties
-    std::vector<Barrier> hard;   ///< for those that horizons bar; empty: for none
-    std::vector<bool> hard_for;  ///< of each property
-    Box3 covered;                ///< nothing of what goes on from a sheet is inside; empty: it may be anywhere
+struct EstimationBarriers {
+    std::vector<EstimationBarrier> soft;  ///< for most properties
+    std::vector<EstimationBarrier> hard;  ///< for those that horizons bar; empty: for none
+    std::vector<bool> hard_for;           ///< of each property
+    Box3 covered;                         ///< nothing of what goes on from a sheet is inside; empty: it may be anywhere
 };
 
 /// Sheets of faults alone, ending where they end.
-Barriers sheets_as_barriers(std::span<const Fault> faults);
+EstimationBarriers sheets_as_barriers(std::span<const Fault> faults);
 
-/// A model's. O(triangles), and a few hundred rows from each rim where a surface goes on beyond the extent.
-Barriers estimation_barriers(const Model& model);
+/// Of a site's faults, prepared within the domain. O(triangles), and a few hundred rows from each rim where a surface
+/// goes on beyond the extent.
+EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Fault> faults);
 
 }  // namespace terratet

@@ -2,21 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_blocks.hpp"
 
-#include "tess/cells.hpp"
-#include "tess/model.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/regions.hpp"
+#include "tess/tessellation.hpp"
 
 namespace terratet {
 namespace {
 
 /// What the faults alone divide the extent into: the corners of the hull box and the seeds.
-Model bare_blocks(const Domain& domain, std::span<const Fault> faults) {
-    Model model;
-    model.domain = domain;
-    model.criteria.l_min = domain.hull.diagonal();
-    model.criteria.l_max = domain.hull.diagonal();
-    model.faults.assign(faults.begin(), faults.end());
+std::vector<Vertex> corners_and_seeds(const Domain& domain, std::span<const Fault> faults) {
+    std::vector<Vertex> vertices;
     const auto add = [&](const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
-        model.vertices.push_back({model.vertices.size(), position, role, owner, side});
+        vertices.push_back({vertices.size(), position, role, owner, side});
     };
     for (unsigned corner = 0; corner < 8; ++corner) {
         const auto pick = [&](int axis) {
@@ -31,15 +28,17 @@ Model bare_blocks(const Domain& domain, std::span<const Fault> faults) {
             }
         }
     }
-    return model;
+    return vertices;
 }
 
 }  // namespace
 
 FaultBlocks::FaultBlocks(const Domain& domain, std::span<const Fault> faults) {
-    const Model model = bare_blocks(domain, faults);
-    mesh_ = tessellate(model).mesh();
-    block_ = describe_cells(model, mesh_).region;
+    const std::vector<Vertex> vertices = corners_and_seeds(domain, faults);
+    Tessellation tessellation;
+    tessellation.insert(vertices);
+    mesh_ = tessellation.mesh();
+    block_ = regions(mesh_, vertices, FaultProximity(faults), domain).region;
 }
 
 std::int32_t FaultBlocks::at(const Vec3& place) const {

@@ -7,8 +7,8 @@
 
 #include <span>
 
+#include "tess/barrier.hpp"
 #include "tess/domain.hpp"
-#include "tess/fault.hpp"
 #include "tess/mesh_walk.hpp"
 
 namespace terratet {

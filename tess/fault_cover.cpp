@@ -2,48 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/fault_cover.hpp"
 
-#include <unordered_map>
+#include "tess/grid.hpp"
 
 namespace terratet {
 namespace {
 
-/// A hash grid of base points for questions within its cell size.
-class BaseGrid {
-  public:
-    BaseGrid(double cell, const std::vector<BasePoint>& base) : cell_(cell) {
-        for (const BasePoint& b : base) {
-            insert(b);
-        }
+Grid<BasePoint> grid_of(const std::vector<BasePoint>& base, double radius) {
+    Grid<BasePoint> grid(radius);
+    for (const BasePoint& b : base) {
+        grid.insert(b.position, b);
     }
-
-    void insert(const BasePoint& b) { cells_[key(b.position, 0, 0, 0)].push_back(b); }
-
-    /// Visits the base points within the cell size of p, and some beyond, until the visitor returns true.
-    template <class Visit>
-    bool any_near(const Vec3& p, const Visit& visit) const {
-        for (int i = 0; i < 27; ++i) {
-            const auto cell = cells_.find(key(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-            if (cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), visit)) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-  private:
-    [[nodiscard]] std::uint64_t key(const Vec3& p, int i, int j, int k) const {
-        const auto index = [&](double x, int step) {
-            const double whole = std::clamp(std::floor(x / cell_), -9e18, 9e18);
-            return static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + step);
-        };
-        constexpr std::uint64_t mask =
-            (1U << 21U) - 1;  // wraps for a continent at millimetres: collisions cost time only
-        return (index(p.x, i) & mask) << 42U | (index(p.y, j) & mask) << 21U | (index(p.z, k) & mask);
-    }
-
-    double cell_;
-    std::unordered_map<std::uint64_t, std::vector<BasePoint>> cells_;
-};
+    return grid;
+}
 
 bool faces(const BasePoint& b, const Vec3& normal) {
     return dot(b.normal, normal) >= 0.5;
@@ -52,7 +22,7 @@ bool faces(const BasePoint& b, const Vec3& normal) {
 /// Adds a base point wherever a piece of the mesh lies in no base point's ball. A piece in one ball is covered, balls
 /// being convex; others are quartered down to a twelfth of the radius, and then get a point of their own.
 void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
-          BaseGrid& grid, std::vector<BasePoint>& base) {
+          Grid<BasePoint>& grid, std::vector<BasePoint>& base) {
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (const Triangle& t : mesh.triangles) {
         const TriangleCorners whole = corners(mesh, t);
@@ -84,7 +54,7 @@ void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::fun
                 const Vec3 normal = normal_at(middle);
                 const BasePoint added{middle, faces({middle, normal}, facing) ? normal : facing};
                 base.push_back(added);
-                grid.insert(added);
+                grid.insert(added.position, added);
                 continue;
             }
             const auto quarters = quartered(piece);
@@ -97,12 +67,12 @@ void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::fun
 
 void cover(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
            std::vector<BasePoint>& base) {
-    BaseGrid grid(radius, base);
+    Grid<BasePoint> grid = grid_of(base, radius);
     fill(mesh, radius, most, allowed, grid, base);
 }
 
 double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base, double at_most) {
-    const BaseGrid grid(at_most, base);
+    const Grid<BasePoint> grid = grid_of(base, at_most);
     double reached = 0;  // by some point, so the truth is no less
     double bound = 0;
     for (const Triangle& t : mesh.triangles) {

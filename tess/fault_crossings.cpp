@@ -41,15 +41,16 @@ std::optional<double> parting(std::vector<double>& places) {
 
 }  // namespace
 
-FaultCrossings::FaultCrossings(const Model& model, const std::vector<char>& selected, double longest)
-    : extent_(model.domain.extent) {
+FaultCrossings::FaultCrossings(std::span<const Fault> faults, const Box3& extent, const std::vector<char>& selected,
+                               double longest)
+    : extent_(extent) {
     std::vector<TriangleCorners> triangles;
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Surface* part : {&faults[f].sheet, &faults[f].margin}) {
             for (const Triangle& t : part->triangles) {
                 if (selected[f] != 0) {
                     triangles.push_back({part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]});
-                    owner_.push_back({static_cast<std::int32_t>(f), part == &model.faults[f].margin});
+                    owner_.push_back({static_cast<std::int32_t>(f), part == &faults[f].margin});
                 }
             }
         }

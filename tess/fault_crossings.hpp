@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: where the edges of a tessellation run through faults.
+/// Where the edges of a tessellation run through faults.
 
+#include <span>
 #include <vector>
 
-#include "tess/model.hpp"
+#include "tess/barrier.hpp"
 #include "tess/triangle_grid.hpp"
 
 namespace terratet {
@@ -20,7 +21,8 @@ class FaultCrossings {
     };
 
     /// For segments up to `longest`, which should be a few spacings at most.
-    FaultCrossings(const Model& model, const std::vector<char>& selected, double longest);
+    FaultCrossings(std::span<const Fault> faults, const Box3& extent, const std::vector<char>& selected,
+                   double longest);
 
     /// The selected faults that part the ends, ascending: those whose sheets the segment meets once, or three times,
     /// ..., there the middle one; beyond the extent their margins too. What two triangles share is met once.

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_complex.hpp"
 #include "tess/fault_mesher.hpp"
 #include "tess/poll.hpp"

@@ -21,11 +21,11 @@ void append_row(const VertexValues& from, std::size_t i, VertexValues& to) {
 }
 
 /// Takes out the vertices with the given ids and puts in others; both ascend. Returns what was taken out.
-ValuedVertices exchange(Tessellation::Kernel& kernel, VertexValues& values, const std::vector<std::uint64_t>& out,
+ValuedVertices exchange(delaunay::Core& core, VertexValues& values, const std::vector<std::uint64_t>& out,
                         const ValuedVertices& in) {
     ValuedVertices taken;
     ValuedVertices next;
-    std::vector<std::uint32_t> new_index(kernel.vertices.size(), delaunay::none);
+    std::vector<std::uint32_t> new_index(core.vertices.size(), delaunay::none);
     std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
     const auto add_until = [&](std::uint64_t id) {
         for (std::size_t k = points.size(); k < in.vertices.size() && in.vertices[k].id < id; ++k) {
@@ -35,8 +35,8 @@ ValuedVertices exchange(Tessellation::Kernel& kernel, VertexValues& values, cons
             append_row(in.values, k, next.values);
         }
     };
-    for (std::size_t i = 0; i < kernel.vertices.size(); ++i) {
-        const Vertex& vertex = kernel.vertices[i];
+    for (std::size_t i = 0; i < core.vertices.size(); ++i) {
+        const Vertex& vertex = core.vertices[i];
         add_until(vertex.id);
         const bool leaves = std::ranges::binary_search(out, vertex.id);
         ValuedVertices& to = leaves ? taken : next;
@@ -50,23 +50,23 @@ ValuedVertices exchange(Tessellation::Kernel& kernel, VertexValues& values, cons
     assert(taken.vertices.size() == out.size());
 
     std::vector<delaunay::VertexHandle> leaving;
-    for (const auto handle : kernel.triangulation.finite_vertex_handles()) {
+    for (const auto handle : core.triangulation.finite_vertex_handles()) {
         handle->info() = new_index[handle->info()];
         if (handle->info() == delaunay::none) {
             leaving.push_back(handle);
         }
     }
     for (const auto handle : leaving) {
-        kernel.triangulation.remove(handle);
+        core.triangulation.remove(handle);
     }
-    kernel.triangulation.insert(points.begin(), points.end());
+    core.triangulation.insert(points.begin(), points.end());
     next.values.values.resize(values.values.size());
-    kernel.vertices = std::move(next.vertices);
+    core.vertices = std::move(next.vertices);
     values = std::move(next.values);
-    if (!kernel.vertices.empty()) {
-        kernel.next_id = std::max(kernel.next_id, kernel.vertices.back().id + 1);
+    if (!core.vertices.empty()) {
+        core.next_id = std::max(core.next_id, core.vertices.back().id + 1);
     }
-    assert(kernel.triangulation.number_of_vertices() == kernel.vertices.size());
+    assert(core.triangulation.number_of_vertices() == core.vertices.size());
     return taken;
 }
 
@@ -114,12 +114,12 @@ FaultChange insert_fault(Tessellation& tessellation, VertexValues& values, const
     for (const Vertex& seed : seeds.vertices) {
         change.ids.push_back(seed.id);
     }
-    change.removed = exchange(tessellation.kernel(), values, leaving, seeds);
+    change.removed = exchange(delaunay::core(tessellation), values, leaving, seeds);
     return change;
 }
 
 void take_out_fault(Tessellation& tessellation, VertexValues& values, const FaultChange& change) {
-    exchange(tessellation.kernel(), values, change.ids, change.removed);
+    exchange(delaunay::core(tessellation), values, change.ids, change.removed);
 }
 
 }  // namespace terratet

@@ -10,7 +10,7 @@
 
 #include "tess/domain.hpp"
 #include "tess/fault_proximity.hpp"
-#include "tess/refine.hpp"
+#include "tess/refinement.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
 

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 
 namespace terratet {
 

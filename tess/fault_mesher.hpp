@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_complex.hpp"
 #include "tess/fault_remesh.hpp"
 #include "tess/size_field.hpp"

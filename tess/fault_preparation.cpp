@@ -7,13 +7,13 @@
 #include <map>
 
 #include "tess/error.hpp"
-#include "tess/fault_approach.hpp"
 #include "tess/fault_clip.hpp"
 #include "tess/fault_crowding.hpp"
 #include "tess/fault_margin.hpp"
 #include "tess/fault_measure.hpp"
 #include "tess/fault_round.hpp"
 #include "tess/fault_row.hpp"
+#include "tess/places_near.hpp"
 
 namespace terratet {
 namespace {

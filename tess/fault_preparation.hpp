@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_cut.hpp"
 #include "tess/fault_mesher.hpp"
 #include "tess/fault_repair.hpp"
 #include "tess/fault_seal.hpp"
 #include "tess/fault_seed.hpp"
+#include "tess/frame.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -34,11 +36,6 @@ struct FaultScale {
     double reach;       ///< how far surfaces go on beyond the extent
     double hull;        ///< and the hull box
 };
-
-/// The spacing asked for, or as much less as it takes that no surface is refused for running too near to one that it
-/// nowhere meets, if that can be afforded: with `affordable` seeds. Else what takes the nearest surfaces that can be.
-double separating_spacing(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, double l_min,
-                          const FaultOptions& options, const Progress& progress);
 
 class FaultPreparer {
   public:

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "tess/estimation_barriers.hpp"
-#include "tess/fault_approach.hpp"
+#include "tess/protection_radii.hpp"
 #include "tess/rim_turns.hpp"
 #include "tess/triangle_grid.hpp"
 #include "tess/triangle_tree.hpp"
@@ -48,7 +48,7 @@ Sheets::Sheets(std::span<const Fault> given) : faults(given) {
             squared_protection.push_back(radius * radius);
         }
         fault_of.resize(triangles.size(), index);
-        trees.emplace_back(fault.sheet);
+        trees.emplace_back(fault.sheet.vertices, fault.sheet.triangles);
     }
     zone = TriangleGrid(std::move(triangles), reach);
     std::map<Vec3, std::vector<std::int32_t>> users;
@@ -77,11 +77,13 @@ struct Bar {
 }  // namespace
 
 struct FaultProximity::Impl {
-    Impl(std::shared_ptr<const Sheets> of, const std::vector<Barrier>& barriers, const Box3& inner)
+    Impl(std::shared_ptr<const Sheets> of, const std::vector<EstimationBarrier>& barriers, const Box3& inner)
         : sheets(std::move(of)), covered(inner) {
         for (std::size_t f = 0; f < barriers.size(); ++f) {
             if (barriers[f].bars) {
-                bars.push_back({f, &sheets->trees[f], TriangleTree(barriers[f].beyond), barriers[f].rims});
+                bars.push_back({f, &sheets->trees[f],
+                                TriangleTree(barriers[f].beyond.vertices, barriers[f].beyond.triangles),
+                                barriers[f].rims});
                 rims.add(barriers[f].rims, sheets->faults[f].spacing);
             }
         }
@@ -105,7 +107,7 @@ struct FaultProximity::Impl {
 
 FaultProximity::FaultProximity(std::span<const Fault> faults) : FaultProximity(faults, sheets_as_barriers(faults)) {}
 
-FaultProximity::FaultProximity(std::span<const Fault> faults, const Barriers& barriers) {
+FaultProximity::FaultProximity(std::span<const Fault> faults, const EstimationBarriers& barriers) {
     const auto sheets = std::make_shared<const Sheets>(faults);
     impl_ = std::make_unique<Impl>(sheets, barriers.soft, barriers.covered);
     if (!barriers.hard.empty()) {

@@ -10,12 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 
 namespace terratet {
 
-struct Barriers;
-struct Model;
+struct EstimationBarriers;
 struct RimTurns;
 
 class FaultProximity {
@@ -23,8 +22,9 @@ class FaultProximity {
     /// The sheets of faults bar estimation, as far as they go. \pre The faults outlive this.
     explicit FaultProximity(std::span<const Fault> faults);
 
-    /// What bars estimation is given (tess/estimation_barriers.hpp): for a model's faults model_proximity() does it.
-    FaultProximity(std::span<const Fault> faults, const Barriers& barriers);
+    /// What bars estimation is given (tess/estimation_barriers.hpp): for a model's faults model_proximity() (model.hpp)
+    /// does it.
+    FaultProximity(std::span<const Fault> faults, const EstimationBarriers& barriers);
     ~FaultProximity();
     FaultProximity(FaultProximity&&) noexcept;
     FaultProximity& operator=(FaultProximity&&) noexcept;
@@ -80,10 +80,6 @@ class FaultProximity {
     FaultProximity(std::unique_ptr<Impl> impl, Made);
     std::unique_ptr<Impl> impl_;
 };
-
-/// A model's faults with all that bars the estimation of its properties: barriers go on beyond the extent, and horizons
-/// bar where they are hard. \pre The model's faults outlive it.
-FaultProximity model_proximity(const Model& model);
 
 /// Above any topography among the surfaces?
 bool is_above_ground(const FaultProximity& faults, const Vec3& p);

@@ -6,9 +6,9 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 
 #include <numeric>
-#include <unordered_map>
 
 #include "tess/fault_complex.hpp"
+#include "tess/grid.hpp"
 
 namespace terratet {
 namespace {
@@ -28,30 +28,18 @@ std::vector<std::uint32_t> merged_points(const std::vector<Vec3>& vertices, doub
         }
     }
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return vertices[a] < vertices[b]; });
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;  // collisions only cost time
-    const auto key = [&](const Vec3& p, int i, int j, int k) {
-        std::uint64_t hash = 0;
-        for (const double x : {p.x / tolerance + i, p.y / tolerance + j, p.z / tolerance + k}) {
-            const double whole = std::clamp(std::floor(x), -9e18, 9e18);
-            hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(whole))) * 0x9e3779b97f4a7c15ULL;
-            hash ^= hash >> 29U;
-        }
-        return hash;
-    };
+    Grid<std::uint32_t> near(tolerance);
     std::vector<std::uint32_t> place(vertices.size(), unplaced);
     for (const std::uint32_t v : order) {
         const Vec3& p = vertices[v];
-        for (int i = 0; i < 27; ++i) {
-            const auto cell = cells.find(key(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-            for (const std::uint32_t k : cell == cells.end() ? std::vector<std::uint32_t>{} : cell->second) {
-                if (distance(points[k], p) <= tolerance) {
-                    place[v] = std::min(place[v], k);
-                }
+        near.visit(p, [&](std::uint32_t k) {
+            if (distance(points[k], p) <= tolerance) {
+                place[v] = std::min(place[v], k);
             }
-        }
+        });
         if (place[v] == unplaced) {
             place[v] = static_cast<std::uint32_t>(points.size());
-            cells[key(p, 0, 0, 0)].push_back(place[v]);
+            near.insert(p, place[v]);
             points.push_back(p);
         }
     }

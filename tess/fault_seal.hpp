@@ -14,8 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_mesh.hpp"
+#include "tess/frame.hpp"
 
 namespace terratet {
 

@@ -9,10 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_complex.hpp"
 #include "tess/fault_cover.hpp"
 #include "tess/fault_wall.hpp"
+#include "tess/frame.hpp"
 #include "tess/poll.hpp"
 #include "tess/size_field.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/fault_approach.hpp"
+#include "tess/protection_radii.hpp"
 
 namespace terratet {
 namespace {

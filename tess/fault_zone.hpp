@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 #include "tess/fault_mesh.hpp"
 
 namespace terratet {

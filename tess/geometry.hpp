@@ -90,6 +90,15 @@ struct Box3 {
     [[nodiscard]] bool contains(const Vec3& p) const {
         return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
     }
+    /// Does it share a point with the box round a segment?
+    [[nodiscard]] bool meets_box_of(const Vec3& a, const Vec3& b) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::max(a[axis], b[axis]) < lo[axis] || std::min(a[axis], b[axis]) > hi[axis]) {
+                return false;
+            }
+        }
+        return true;
+    }
     /// The nearest point of the box.
     [[nodiscard]] Vec3 clamped(const Vec3& p) const {
         return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y), std::clamp(p.z, lo.z, hi.z)};

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tess/tetrahedron.hpp"
+
 namespace terratet {
 
 namespace {
-
-constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 /// Whether β = R·A/(3V) exceeds `limit`, and if so by what factor; 1 otherwise. With f_i twice the faces' areas,
 /// A² = (Σf_i)²/4 ≤ Σf_i², which acquits most cells without a root.
@@ -31,6 +31,12 @@ double aspect_violation(const CellPoints& p, double squared_radius, double volum
 }
 
 }  // namespace
+
+JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
+    std::ranges::sort(cell);
+    const CellPoints points = cell_points(mesh, cell);
+    return {cell, points, circumsphere(points)};
+}
 
 InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame,
                              const FaultProximity& faults, std::span<const Property> properties,

@@ -16,7 +16,7 @@
 #include "tess/frame.hpp"
 #include "tess/property.hpp"
 #include "tess/quality.hpp"
-#include "tess/refine.hpp"
+#include "tess/refinement.hpp"
 #include "tess/resolution.hpp"
 
 namespace terratet {
@@ -27,6 +27,9 @@ struct JudgedCell {
     CellPoints points;
     Circumsphere sphere;
 };
+
+/// A cell of a mesh, likewise.
+JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell);
 
 /// Where a bad cell's new vertex would go. Distances to other vertices are still to be tested when `projected`.
 struct Proposal {

@@ -14,9 +14,9 @@ constexpr std::size_t batch_size = 1U << 12U;  ///< enough for any number of thr
 
 }  // namespace
 
-LiveVertices::LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source,
-                           bool values_at_once, std::uint64_t max_vertices, double l_min, double bound)
-    : kernel_(kernel),
+LiveVertices::LiveVertices(delaunay::Core& core, VertexValues& values, const ValueSource& source, bool values_at_once,
+                           std::uint64_t max_vertices, double l_min, double bound)
+    : core_(core),
       values_(values),
       source_(source),
       values_at_once_(values_at_once),
@@ -26,14 +26,14 @@ LiveVertices::LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, c
       bound_(bound) {}
 
 std::uint32_t LiveVertices::append(const Vec3& place) {
-    auto& vertices = kernel_.vertices;
+    auto& vertices = core_.vertices;
     if (vertices.size() >= max_vertices_) {
         throw refinement_beyond(max_vertices_, others_, l_min_, bound_);
     }
     if (vertices.size() == vertices.capacity()) {  // doubling would cost more than the queue
         vertices.reserve(vertices.size() / 8 * 9 + 8);
     }
-    vertices.push_back({kernel_.next_id++, place, Role::inserted, -1, 0});
+    vertices.push_back({core_.next_id++, place, Role::inserted, -1, 0});
     if (values_at_once_) {
         complete();
     }
@@ -41,8 +41,8 @@ std::uint32_t LiveVertices::append(const Vec3& place) {
 }
 
 void LiveVertices::pop() {
-    kernel_.vertices.pop_back();
-    --kernel_.next_id;
+    core_.vertices.pop_back();
+    --core_.next_id;
     if (valued() > size()) {
         for (auto& column : values_.values) {
             column.pop_back();
@@ -84,12 +84,12 @@ void LiveVertices::drop(const std::vector<std::uint32_t>& removed) {
         compact(column);
     }
     compact(values_.extrapolation);
-    compact(kernel_.vertices);
+    compact(core_.vertices);
     std::uint32_t next = 0;
     for (std::uint32_t& index : new_index) {
         index = index == delaunay::none ? delaunay::none : next++;
     }
-    for (const auto vertex : kernel_.triangulation.finite_vertex_handles()) {
+    for (const auto vertex : core_.triangulation.finite_vertex_handles()) {
         vertex->info() = new_index[vertex->info()];
     }
 }
@@ -108,7 +108,7 @@ void LiveVertices::complete() {
     while (valued() < size()) {
         queries.clear();
         for (std::size_t i = valued(); i < std::min(size(), valued() + batch_size); ++i) {
-            queries.push_back({kernel_.vertices[i].position, -1, 0});
+            queries.push_back({core_.vertices[i].position, -1, 0});
         }
         const ValueBatch batch = source_(queries);
         for (std::size_t p = 0; p < values_.values.size(); ++p) {

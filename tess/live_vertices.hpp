@@ -7,7 +7,6 @@
 /// Where criteria ask for values they are estimated as vertices come and move; otherwise all at the end, in batches.
 
 #include "tess/delaunay.hpp"
-#include "tess/refine.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
@@ -16,7 +15,7 @@ class LiveVertices {
   public:
     /// All references must outlive the object. append() throws UsageError beyond `max_vertices`; `l_min` and
     /// `bound` (R1) are for its message.
-    LiveVertices(Tessellation::Kernel& kernel, VertexValues& values, const ValueSource& source, bool values_at_once,
+    LiveVertices(delaunay::Core& core, VertexValues& values, const ValueSource& source, bool values_at_once,
                  std::uint64_t max_vertices, double l_min, double bound);
 
     /// A vertex of role inserted, with the next id. Its place in the triangulation is the caller's business.
@@ -34,12 +33,12 @@ class LiveVertices {
     /// Values for all that have none yet.
     void complete();
 
-    [[nodiscard]] std::size_t size() const { return kernel_.vertices.size(); }
+    [[nodiscard]] std::size_t size() const { return core_.vertices.size(); }
 
   private:
     [[nodiscard]] std::size_t valued() const { return values_.extrapolation.size(); }
 
-    Tessellation::Kernel& kernel_;
+    delaunay::Core& core_;
     VertexValues& values_;
     const ValueSource& source_;
     bool values_at_once_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/cells.hpp"
+#include "tess/gap_cell.hpp"
 
 namespace terratet {
 

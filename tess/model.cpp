@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/model.hpp"
 
+#include "tess/estimation_barriers.hpp"
+
 namespace terratet {
 
 Tessellation tessellate(const Model& model) {
     Tessellation tessellation;
     tessellation.insert(model.vertices);
     return tessellation;
+}
+
+FaultProximity model_proximity(const Model& model) {
+    return FaultProximity(model.faults, estimation_barriers(model, model.domain, model.faults));
 }
 
 }  // namespace terratet

@@ -7,29 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "tess/borehole.hpp"
+#include "tess/barrier.hpp"
 #include "tess/criteria.hpp"
 #include "tess/density.hpp"
 #include "tess/domain.hpp"
-#include "tess/fault.hpp"
-#include "tess/frame.hpp"
-#include "tess/property.hpp"
-#include "tess/refine.hpp"
-#include "tess/samples.hpp"
-#include "tess/surface.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/site.hpp"
 #include "tess/tessellation.hpp"
 
 namespace terratet {
-
-/// What was measured, in one frame: the readers' result. Boreholes sorted by id, samples and surfaces in canonical
-/// order.
-struct Site {
-    Frame frame;
-    std::vector<Property> properties;
-    std::vector<Borehole> boreholes;
-    Samples samples;
-    std::vector<Surface> surfaces;
-};
 
 /// The name of the region that holds a point.
 struct RegionName {
@@ -53,5 +39,9 @@ struct Model : Site {
 
 /// The tessellation of a model's vertices.
 Tessellation tessellate(const Model& model);
+
+/// A model's barriers with all that bars the estimation of its properties: they go on beyond the extent, and horizons
+/// bar where they are hard. \pre The model outlives it.
+FaultProximity model_proximity(const Model& model);
 
 }  // namespace terratet

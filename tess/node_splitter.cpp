@@ -9,6 +9,7 @@
 
 #include "tess/box_clip.hpp"
 #include "tess/fault_proximity.hpp"
+#include "tess/tetrahedron.hpp"
 
 namespace terratet {
 namespace {
@@ -20,7 +21,6 @@ constexpr double on_surface = 1e-3;  ///< a place may be this far from a surface
 constexpr double on_sheet = 0.1;     ///< a facet's centre may be this far from the sheet, over its longest edge
 
 /// Corners of facet k as seen from outside the cell.
-constexpr std::size_t outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Neighbours across facets by sorting; −1 where there is none.
 std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<std::array<std::uint32_t, 4>>& cells) {
@@ -93,7 +93,7 @@ class NodeSplitter {
                        !in_extent(static_cast<std::size_t>(neighbours_[c][k]))) {
                 return;
             }
-            for (const std::size_t corner : outward[k]) {
+            for (const std::size_t corner : facet_corners[k]) {
                 const std::uint32_t node = cells_[c][corner];
                 continued[node] = model_.domain.extent.contains(base_[node]) ? 0 : 1;
             }
@@ -101,7 +101,7 @@ class NodeSplitter {
         // Where the margin continues the fault beyond the extent, it is cut on by a row of facets: those that straddle
         // the extent's face could not be parted otherwise, nor those just outside between cells that count as inside.
         for_each_divider([&](std::uint32_t c, std::size_t k, std::int32_t) {
-            if (std::ranges::any_of(outward[k], [&](std::size_t i) { return continued[cells_[c][i]] != 0; }) &&
+            if (std::ranges::any_of(facet_corners[k], [&](std::size_t i) { return continued[cells_[c][i]] != 0; }) &&
                 inside_extent(c, k).empty()) {
                 cut(c, k, touched);
             }
@@ -188,7 +188,7 @@ class NodeSplitter {
                     continue;
                 }
                 const auto& v = cells_[c];
-                const auto& o = outward[k];
+                const auto& o = facet_corners[k];
                 for (const std::int32_t fault : faults_at_[v[o[0]]]) {
                     if (selected_[static_cast<std::size_t>(fault)] != 0 &&
                         std::ranges::binary_search(faults_at_[v[o[1]]], fault) &&
@@ -204,7 +204,7 @@ class NodeSplitter {
     void cut(std::uint32_t c, std::size_t k, std::vector<char>& touched) {
         const auto beyond = static_cast<std::uint32_t>(neighbours_[c][k]);
         cut_[c][k] = cut_[beyond][facet_towards(beyond, c)] = true;
-        for (const std::size_t corner : outward[k]) {
+        for (const std::size_t corner : facet_corners[k]) {
             touched[cells_[c][corner]] = 1;
         }
     }
@@ -212,7 +212,7 @@ class NodeSplitter {
     /// The part of a facet, at the bases of its nodes, that lies in the extent.
     [[nodiscard]] std::vector<Vec3> inside_extent(std::uint32_t c, std::size_t k) const {
         const auto& v = cells_[c];
-        const auto& o = outward[k];
+        const auto& o = facet_corners[k];
         return clipped({base_[v[o[0]]], base_[v[o[1]]], base_[v[o[2]]]}, model_.domain.extent);
     }
 
@@ -287,7 +287,7 @@ class NodeSplitter {
                     cut(c, k, touched);
                     const std::vector<Vec3> inside = inside_extent(c, k);
                     split_area_ += area(inside);
-                    for (const std::size_t corner : outward[k]) {
+                    for (const std::size_t corner : facet_corners[k]) {
                         if (const std::uint32_t node = cells_[c][corner]; !inside.empty() && faults_at_[node].empty()) {
                             off_faults_.insert(image_.position(node));
                         }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/quality.hpp"
+#include "tess/tetrahedron.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,13 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 
 /// The face opposite each corner, outward for a positively oriented cell.
-constexpr int face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Twice-area vectors of the four faces.
 std::array<Vec3, 4> face_vectors(const CellPoints& p) {
     std::array<Vec3, 4> vectors;
     for (int k = 0; k < 4; ++k) {
-        const Vec3& a = p[static_cast<std::size_t>(face_corners[k][0])];
-        vectors[static_cast<std::size_t>(k)] = cross(p[static_cast<std::size_t>(face_corners[k][1])] - a,
-                                                     p[static_cast<std::size_t>(face_corners[k][2])] - a);
+        const Vec3& a = p[facet_corners[k][0]];
+        vectors[static_cast<std::size_t>(k)] = cross(p[facet_corners[k][1]] - a, p[facet_corners[k][2]] - a);
     }
     return vectors;
 }

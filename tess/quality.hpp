@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "tess/geometry.hpp"
+#include "tess/tet_mesh.hpp"
 
 namespace terratet {
 
@@ -24,6 +24,10 @@ struct CellQuality {
 };
 
 using CellPoints = std::array<Vec3, 4>;
+
+inline CellPoints cell_points(const TetMesh& mesh, const std::array<std::uint32_t, 4>& cell) {
+    return {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
+}
 
 /// All measures; independent of the orientation, though its last bits depend on the order of the points.
 CellQuality cell_quality(const CellPoints& points);

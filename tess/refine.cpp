@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "tess/cell_queue.hpp"
-#include "tess/cells.hpp"
 #include "tess/clean_up.hpp"
 #include "tess/conflict_zone.hpp"
 #include "tess/delaunay.hpp"
+#include "tess/gap_cell.hpp"
 #include "tess/insertion_rule.hpp"
 #include "tess/live_cell.hpp"
 #include "tess/live_vertices.hpp"
@@ -34,18 +34,18 @@ class Refiner {
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
             const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
             const ValueSource& source, const RefineOptions& options)
-        : kernel_(tessellation.kernel()),
+        : core_(delaunay::core(tessellation)),
           rule_(criteria, domain, frame, faults, properties, values),
-          search_(kernel_.triangulation, domain.hull),
+          search_(core_.triangulation, domain.hull),
           criteria_(criteria),
           frame_(frame),
           options_(options),
-          vertices_(kernel_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
+          vertices_(core_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
                     rule_.resolution().packing_bound()),
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
           has_faults_(!faults.empty()) {
         report_.bound = rule_.resolution().packing_bound();
-        for (const Vertex& vertex : kernel_.vertices) {
+        for (const Vertex& vertex : core_.vertices) {
             rule_.note_vertex(vertex.position);
         }
     }
@@ -69,7 +69,7 @@ class Refiner {
 
   private:
     void queue_all() {
-        auto& triangulation = kernel_.triangulation;
+        auto& triangulation = core_.triangulation;
         if (triangulation.dimension() < 3) {
             return;
         }
@@ -92,7 +92,7 @@ class Refiner {
             if (judged_cell.sphere.squared_radius < smallest_squared_radius_) {
                 continue;  // rule 2 would refuse it: R is below l_min
             }
-            if (has_faults_ && gap_fault(judged_cell.vertices, kernel_.vertices) >= 0) {
+            if (has_faults_ && gap_fault(judged_cell.vertices, core_.vertices) >= 0) {
                 continue;
             }
             if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
@@ -115,7 +115,7 @@ class Refiner {
         std::vector<Cell> cells;
         for (const auto& v : std::exchange(at_boundary_, {})) {
             Cell cell;
-            if (kernel_.triangulation.is_cell(v[0], v[1], v[2], v[3], cell)) {
+            if (core_.triangulation.is_cell(v[0], v[1], v[2], v[3], cell)) {
                 cells.push_back(cell);
             }
         }
@@ -154,8 +154,8 @@ class Refiner {
         delaunay::Triangulation::Locate_type where{};
         int i = 0;
         int j = 0;
-        const Cell start = kernel_.triangulation.locate(delaunay::to_cgal(place), where, i, j, cell);
-        if (where == delaunay::Triangulation::VERTEX || kernel_.triangulation.is_infinite(start) ||
+        const Cell start = core_.triangulation.locate(delaunay::to_cgal(place), where, i, j, cell);
+        if (where == delaunay::Triangulation::VERTEX || core_.triangulation.is_infinite(start) ||
             !find_zone(place, start, zone_)) {
             return false;
         }
@@ -186,7 +186,7 @@ class Refiner {
             return;
         }
         std::array<std::uint64_t, 4> ids{};
-        std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return kernel_.vertices[v].id; });
+        std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return core_.vertices[v].id; });
         BallPoints ball(ids);
         const int count = rule_.merely_flat(cell) ? candidate_count_if_flat : candidate_count;
         for (int i = 0; i < count && best > poor_star; ++i) {
@@ -220,7 +220,7 @@ class Refiner {
         return l_min * l_min;
     }
 
-    [[nodiscard]] bool is_infinite(const Facet& facet) const { return kernel_.triangulation.is_infinite(facet); }
+    [[nodiscard]] bool is_infinite(const Facet& facet) const { return core_.triangulation.is_infinite(facet); }
 
     using FacetCorners = std::array<Vec3, 3>;
     static FacetCorners facet_corners(const Facet& facet) {
@@ -250,7 +250,7 @@ class Refiner {
         for (const auto& [cell, k] : zone.boundary) {
             outside_.emplace_back(cell->neighbor(k), cell->neighbor(k)->index(cell));
         }
-        auto& triangulation = kernel_.triangulation;
+        auto& triangulation = core_.triangulation;
         const auto vertex =
             triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
                                          zone.boundary.front().first, zone.boundary.front().second);
@@ -267,7 +267,7 @@ class Refiner {
     }
 
     void clean_up() {
-        CleanUp cleaning(kernel_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
+        CleanUp cleaning(core_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
         const CleanUpReport done = cleaning.run();
         report_.inserted += done.inserted;
         report_.moved = done.moved;
@@ -288,7 +288,7 @@ class Refiner {
         Cell cell;
     };
 
-    Tessellation::Kernel& kernel_;
+    delaunay::Core& core_;
     InsertionRule rule_;
     ConflictSearch search_;
     const Criteria& criteria_;
@@ -311,26 +311,6 @@ class Refiner {
 };
 
 }  // namespace
-
-std::string to_string(Reason reason) {
-    switch (reason) {
-        case Reason::none:
-            return "none";
-        case Reason::smooth:
-            return "smooth";
-        case Reason::too_close:
-            return "too_close";
-        case Reason::near_face:
-            return "near_face";
-        case Reason::near_fault:
-            return "near_fault";
-        case Reason::no_center:
-            return "no_center";
-        case Reason::fault_gap:
-            return "fault_gap";
-    }
-    return "unknown";
-}
 
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
                     const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,

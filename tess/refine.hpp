@@ -2,72 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Refinement (paper 4.2; DESIGN §4.3): insert a vertex for every bad cell that can be improved, until each cell meets
-/// the criteria or carries the reason why not. Always Delaunay.
-///
-/// Guarantees
-/// l_min and l_max are those in force where they are asked for (resolution.hpp).
-///  R1  Inserted vertices never exceed the packing bound, and refinement terminates.
-///  R2  Each cell outside the gaps meets every insertion criterion or carries a reason code.
-///  R3  No inserted vertex is nearer than l_min to any other vertex.
-///  R4  With l_max ≥ 4 l_min no edge exceeds l_max in cells that are not exempt as smooth and whose circumcentre lies
-///      in the extent and outside the faults' protection zones.
-///  R5  The tessellation is Delaunay.
-///  R6  The same input gives the same result, at any thread count and in any order of rows.
-///  R7  Refining again inserts, moves and removes nothing.
+/// Refinement itself (refinement.hpp: options, report, guarantees).
 
-#include <cstdint>
-#include <map>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "tess/criteria.hpp"
 #include "tess/domain.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/frame.hpp"
-#include "tess/progress.hpp"
 #include "tess/property.hpp"
-#include "tess/resolution.hpp"
+#include "tess/refinement.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
-
-/// Why a bad cell was left as it is.
-enum class Reason : std::uint8_t {
-    none,        ///< the cell meets the criteria
-    smooth,      ///< exempt: every |Δf| along its edges is below df_min
-    too_close,   ///< the new vertex would come nearer than l_min to another
-    near_face,   ///< so would the projection of its circumcentre onto the hull box
-    near_fault,  ///< the new vertex would lie in a fault's protection zone
-    no_center,   ///< its circumcentre is not a finite number
-    fault_gap,   ///< between the two seed sheets of a fault: never judged
-};
-
-/// "too_close" and so on: the report's keys.
-std::string to_string(Reason reason);
-
-struct RefineOptions {
-    std::uint64_t max_vertices = 50'000'000;  ///< throws Error when the tessellation would exceed it
-    bool candidates = true;                   ///< rule 4: try points around a circumcentre that would make a flat star
-    bool clean_up = true;                     ///< rule 6: move or remove inserted vertices of slivers and tiny cells
-    Progress progress;
-};
-
-struct RefineReport {
-    std::uint64_t inserted = 0;               ///< whatever became of them later; also by the clean-up
-    std::uint64_t moved = 0;                  ///< moves by the clean-up
-    std::uint64_t removed = 0;                ///< by the clean-up
-    double bound = 0;                         ///< R1
-    std::map<Reason, std::uint64_t> skipped;  ///< bad cells left, by reason
-};
-
-/// Values of the tessellation's vertices, in step with Tessellation::vertices().
-struct VertexValues {
-    std::vector<std::vector<double>> values;  ///< [property][vertex], measured units
-    std::vector<double> extrapolation;        ///< 0…1
-};
 
 /// Refines in place and appends the new vertices' values. Values come at once where a variation criterion needs them,
 /// otherwise in one batch at the end. About 100 k insertions a second on one core.

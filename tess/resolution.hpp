@@ -10,9 +10,9 @@
 #include <memory>
 #include <span>
 
+#include "tess/barrier.hpp"
 #include "tess/criteria.hpp"
 #include "tess/domain.hpp"
-#include "tess/fault.hpp"
 #include "tess/quality.hpp"
 
 namespace terratet {

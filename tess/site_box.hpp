@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tess/model.hpp"
+#include "tess/site.hpp"
 
 namespace terratet {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "tess/geometry.hpp"
+#include "tess/grid.hpp"
 
 namespace terratet {
 
@@ -21,8 +21,8 @@ class SizeField {
     void refine(const Vec3& p, double size) {
         const double reach = (spacing_ - size) / gradation;
         const auto steps = static_cast<std::int64_t>(std::ceil(reach / cell_));
-        const Index centre = index(p);
-        if (const auto found = cells_.find(key(centre)); found != cells_.end() && found->second <= size) {
+        const GridCell centre = GridCell::of(p, cell_);
+        if (const auto found = cells_.find(centre.key()); found != cells_.end() && found->second <= size) {
             return;
         }
         for (std::int64_t i = -steps; i <= steps; ++i) {
@@ -32,8 +32,7 @@ class SizeField {
                         cell_ * std::max(0.0, std::sqrt(static_cast<double>(i * i + j * j + k * k)) - 1);
                     const double wanted = size + gradation * away;
                     if (wanted < spacing_) {
-                        double& here = cells_.try_emplace(key({centre[0] + i, centre[1] + j, centre[2] + k}), spacing_)
-                                           .first->second;
+                        double& here = cells_.try_emplace(centre.moved(i, j, k).key(), spacing_).first->second;
                         here = std::min(here, wanted);
                     }
                 }
@@ -45,7 +44,7 @@ class SizeField {
         if (cells_.empty()) {
             return spacing_;
         }
-        const auto found = cells_.find(key(index(p)));
+        const auto found = cells_.find(GridCell::of(p, cell_).key());
         return found == cells_.end() ? spacing_ : found->second;
     }
 
@@ -53,22 +52,11 @@ class SizeField {
     [[nodiscard]] bool uniform() const { return cells_.empty(); }
 
   private:
-    using Index = std::array<std::int64_t, 3>;
     static constexpr double gradation = 0.4;
-
-    [[nodiscard]] Index index(const Vec3& p) const {
-        return {static_cast<std::int64_t>(std::floor(p.x / cell_)), static_cast<std::int64_t>(std::floor(p.y / cell_)),
-                static_cast<std::int64_t>(std::floor(p.z / cell_))};
-    }
-    static std::uint64_t key(const Index& i) {  // wraps for a continent at millimetres: refines somewhere else as well
-        constexpr std::uint64_t mask = (1U << 21U) - 1;
-        return (static_cast<std::uint64_t>(i[0]) & mask) << 42U | (static_cast<std::uint64_t>(i[1]) & mask) << 21U |
-               (static_cast<std::uint64_t>(i[2]) & mask);
-    }
 
     double spacing_;
     double cell_;
-    std::unordered_map<std::uint64_t, double> cells_;
+    std::unordered_map<std::uint64_t, double> cells_;  ///< where keys wrap, somewhere else is refined as well
 };
 
 }  // namespace terratet

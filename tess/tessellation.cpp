@@ -43,7 +43,11 @@ FlatCell canonical(Cell cell) {
 
 }  // namespace
 
-Tessellation::Tessellation() : kernel_(std::make_unique<Kernel>()) {}
+delaunay::Core& delaunay::core(Tessellation& tessellation) {
+    return *tessellation.core_;
+}
+
+Tessellation::Tessellation() : core_(std::make_unique<delaunay::Core>()) {}
 Tessellation::~Tessellation() = default;
 Tessellation::Tessellation(Tessellation&&) noexcept = default;
 Tessellation& Tessellation::operator=(Tessellation&&) noexcept = default;
@@ -53,39 +57,39 @@ void Tessellation::insert(std::span<const Vertex> vertices) {
 }
 
 void insert_vertices(Tessellation& tessellation, std::span<const Vertex> vertices, const Poll& poll) {
-    auto& kernel = tessellation.kernel();
+    delaunay::Core& core = delaunay::core(tessellation);
     PatientPoll go_on(poll);
     std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
     points.reserve(vertices.size());
-    kernel.vertices.reserve(kernel.vertices.size() + vertices.size());
+    core.vertices.reserve(core.vertices.size() + vertices.size());
     for (const Vertex& vertex : vertices) {
-        assert(is_acceptable(vertex.position) && vertex.id >= kernel.next_id);
-        points.emplace_back(delaunay::to_cgal(vertex.position), static_cast<std::uint32_t>(kernel.vertices.size()));
-        kernel.vertices.push_back(vertex);
-        kernel.next_id = vertex.id + 1;
+        assert(is_acceptable(vertex.position) && vertex.id >= core.next_id);
+        points.emplace_back(delaunay::to_cgal(vertex.position), static_cast<std::uint32_t>(core.vertices.size()));
+        core.vertices.push_back(vertex);
+        core.next_id = vertex.id + 1;
     }
-    delaunay::insert(kernel.triangulation, points, go_on);
-    assert(kernel.triangulation.number_of_vertices() == kernel.vertices.size());
+    delaunay::insert(core.triangulation, points, go_on);
+    assert(core.triangulation.number_of_vertices() == core.vertices.size());
 }
 
 std::span<const Vertex> Tessellation::vertices() const {
-    return kernel_->vertices;
+    return core_->vertices;
 }
 
 std::size_t Tessellation::cell_count() const {
-    const auto& triangulation = kernel_->triangulation;
+    const auto& triangulation = core_->triangulation;
     return triangulation.dimension() == 3 ? triangulation.number_of_finite_cells() : 0;
 }
 
 std::uint64_t Tessellation::next_id() const {
-    return kernel_->next_id;
+    return core_->next_id;
 }
 
 TetMesh Tessellation::mesh() const {
-    auto& triangulation = kernel_->triangulation;
+    auto& triangulation = core_->triangulation;
     TetMesh mesh;
-    mesh.points.reserve(kernel_->vertices.size());
-    for (const Vertex& vertex : kernel_->vertices) {
+    mesh.points.reserve(core_->vertices.size());
+    for (const Vertex& vertex : core_->vertices) {
         mesh.points.push_back(vertex.position);
     }
     if (triangulation.dimension() < 3) {
@@ -118,7 +122,7 @@ TetMesh Tessellation::mesh() const {
 }
 
 bool Tessellation::is_delaunay() const {
-    return kernel_->triangulation.is_valid();
+    return core_->triangulation.is_valid();
 }
 
 }  // namespace terratet

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The dynamic Delaunay tessellation: vertices with their records and values, cells kept Delaunay under insertion and
+/// The dynamic Delaunay tessellation: vertices with their records, cells kept Delaunay under insertion and
 /// removal.
 ///
 /// Guarantee R5: it is the Delaunay tessellation of its vertices, by exact predicates. For given coordinates it is
@@ -14,35 +14,18 @@
 #include <span>
 #include <vector>
 
-#include "tess/geometry.hpp"
+#include "tess/tet_mesh.hpp"
 
 namespace terratet {
 
-/// Why a vertex is there.
-enum class Role : std::uint8_t {
-    sample,    ///< a kept sample; owner: its index in Model::samples
-    seed,      ///< one of a fault's mirrored seeds; owner: index in Model::faults; side +1 or −1
-    domain,    ///< on the hull box; owner −1
-    inserted,  ///< by refinement; owner −1
-};
+class Tessellation;
 
-struct Vertex {
-    std::uint64_t id = 0;  ///< unique in a model, given in a canonical order of the data, never of arrival
-    Vec3 position;         ///< frame-local, snapped (Frame::snapped)
-    Role role = Role::inserted;
-    std::int32_t owner = -1;
-    std::int8_t side = 0;
+namespace delaunay {
 
-    friend bool operator==(const Vertex&, const Vertex&) = default;
-};
+struct Core;  ///< what is behind a tessellation: the business of this floor alone (delaunay.hpp)
+Core& core(Tessellation& tessellation);
 
-/// Flat copy of the cells for writers, statistics and resampling. Vertex i is vertices()[i]; cells have positive
-/// orientation, start with their smallest vertex and are sorted, so that equal tessellations give equal arrays.
-struct TetMesh {
-    std::vector<Vec3> points;
-    std::vector<std::array<std::uint32_t, 4>> cells;
-    std::vector<std::array<std::int32_t, 4>> neighbours;  ///< of cell c opposite its vertex k; −1 on the hull
-};
+}  // namespace delaunay
 
 class Tessellation {
   public:
@@ -68,13 +51,9 @@ class Tessellation {
     /// across every facet, neighbours mutual. ~10 µs a cell.
     [[nodiscard]] bool is_delaunay() const;
 
-    /// The kernel behind it, for the algorithms of this floor (tess/delaunay.hpp).
-    struct Kernel;
-    [[nodiscard]] Kernel& kernel() { return *kernel_; }
-    [[nodiscard]] const Kernel& kernel() const { return *kernel_; }
-
   private:
-    std::unique_ptr<Kernel> kernel_;
+    friend delaunay::Core& delaunay::core(Tessellation& tessellation);
+    std::unique_ptr<delaunay::Core> core_;
 };
 
 }  // namespace terratet

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a tetrahedron's edges and height, for those who cut cells.
+/// A tetrahedron's edges, facets and height.
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,9 @@
 namespace terratet {
 
 inline constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// The corners of the facet opposite each, counterclockwise as seen from outside a positively oriented cell.
+inline constexpr std::size_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// The ends of one edge, and of the one it does not touch.
 inline constexpr std::array<std::array<std::size_t, 4>, 3> opposite_edges{{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};

@@ -71,10 +71,10 @@ struct Slab {
     }
 };
 
-std::vector<Corners> triangles_of(const Surface& surface) {
+std::vector<Corners> with_area(std::span<const Vec3> points, std::span<const Triangle> given) {
     std::vector<Corners> triangles;
-    for (const Triangle& t : surface.triangles) {
-        const Corners corners{surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
+    for (const Triangle& t : given) {
+        const Corners corners{points[t[0]], points[t[1]], points[t[2]]};
         if (!triangle(corners).is_degenerate()) {  // has no inside, and CGAL's predicates ask for one
             triangles.push_back(corners);
         }
@@ -196,8 +196,8 @@ struct TriangleTree::Impl {
     std::vector<Node> nodes;
 };
 
-TriangleTree::TriangleTree(const Surface& surface) {
-    auto triangles = triangles_of(surface);
+TriangleTree::TriangleTree(std::span<const Vec3> points, std::span<const Triangle> given) {
+    auto triangles = with_area(points, given);
     if (!triangles.empty()) {
         impl_ = std::make_unique<Impl>(std::move(triangles));
     }

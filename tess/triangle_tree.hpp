@@ -9,15 +9,17 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
-#include "tess/surface.hpp"
+#include "tess/geometry.hpp"
 
 namespace terratet {
 
 class TriangleTree {
   public:
     /// Triangles without area are left out. O(n log n).
-    explicit TriangleTree(const Surface& surface);
+    TriangleTree(std::span<const Vec3> points, std::span<const Triangle> triangles);
+    TriangleTree() : TriangleTree({}, {}) {}
     ~TriangleTree();
     TriangleTree(TriangleTree&&) noexcept;
     TriangleTree& operator=(TriangleTree&&) noexcept;

@@ -8,14 +8,16 @@
 #include <sstream>
 
 #include "tess/cells.hpp"
-#include "tess/fault_approach.hpp"
+#include "tess/crossing_edges.hpp"
+#include "tess/density_edition.hpp"
+#include "tess/protection_radii.hpp"
 #include "tess/quality.hpp"
+#include "tess/refine.hpp"
+#include "tess/tetrahedron.hpp"
 
 namespace terratet {
 
 namespace {
-
-constexpr std::array<std::array<std::size_t, 2>, 6> cell_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 std::string show(const Model& model, const Vec3& local) {
     const Vec3 p = model.frame.to_world(local);
@@ -92,7 +94,7 @@ class Verifier {
           source_(factory ? factory(model, proximity_) : ValueSource()),
           tessellation_(tessellate(model)),
           mesh_(tessellation_.mesh()),
-          table_(describe_cells(model, mesh_)) {
+          table_(describe_cells(model, mesh_, proximity_)) {
         for (const Vertex& vertex : model.vertices) {
             if (vertex.role == Role::sample) {
                 kept_.push_back(vertex.position);
@@ -212,7 +214,7 @@ class Verifier {
 
     Verdict f1() {
         Offenders offenders;
-        for (const CrossingEdge& edge : fault_crossing_edges(model_, mesh_)) {
+        for (const CrossingEdge& edge : fault_crossing_edges(model_, mesh_, proximity_)) {
             offenders.add("edge " + show(model_, point(edge.a)) + " to " + show(model_, point(edge.b)) + " crosses '" +
                           model_.faults[static_cast<std::size_t>(edge.fault)].name + "'");
         }
@@ -353,14 +355,8 @@ class Verifier {
         Site site = model_;
         site.samples = reversed_samples();
         std::ranges::reverse(site.surfaces);
-        BuildOptions options;
-        options.extent = model_.domain.extent;
-        options.criteria = model_.criteria;
-        options.region_names = model_.region_names;
-        options.density = model_.density;
-        options.faults = model_.fault_options;
         BuildReport report;
-        const Model again = build(std::move(site), options, factory_, report);
+        const Model again = std::move(build(std::move(site), options_of(model_), factory_, report)->model);
         if (again.vertices.size() != model_.vertices.size()) {
             offenders.add(std::to_string(again.vertices.size()) + " vertices when built again");
         }

@@ -4,7 +4,7 @@
 /// \file
 /// How many vertices the criteria ask for, known before any is made. Private to this floor.
 
-#include "tess/build.hpp"
+#include "tess/build_options.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -109,7 +109,7 @@ MeshField adaptive(const AnalyticSite& site, BuildReport& report) {
             return batch;
         };
     };
-    return field_of(build(site.site, site.options, factory, report));
+    return field_of(std::move(build(site.site, site.options, factory, report)->model));
 }
 
 MeshField field_of(const Model& model) {

@@ -10,7 +10,7 @@ EstimatedSite::EstimatedSite(const AnalyticSite& site, const std::string& estima
     const auto factory = [&](const Model& model, const FaultProximity& faults) {
         return make_model_source(model, faults, plan);
     };
-    model_ = std::make_unique<Model>(build(site.site, site.options, factory, report));
+    model_ = std::make_unique<Model>(std::move(build(site.site, site.options, factory, report)->model));
     faults_ = std::make_unique<FaultProximity>(model_->faults);
     source_ = make_model_source(*model_, *faults_, plan);
 }

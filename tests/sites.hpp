@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "support.hpp"
-#include "tess/fault.hpp"
+#include "tess/barrier.hpp"
 
 namespace terratet::testing {
 

@@ -10,8 +10,8 @@
 #include "tools/command.hpp"
 #include "tools/open_model.hpp"
 #include "tools/printable.hpp"
+#include "tools/process.hpp"
 #include "tools/progress_display.hpp"
-#include "tools/session.hpp"
 
 namespace terratet::tools {
 namespace {

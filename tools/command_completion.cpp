@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/command.hpp"
 #include "tools/completion.hpp"
-#include "tools/session.hpp"
+#include "tools/process.hpp"
 
 namespace terratet::tools {
 namespace {

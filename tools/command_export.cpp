@@ -7,10 +7,10 @@
 #include "tools/open_model.hpp"
 #include "tools/outputs.hpp"
 #include "tools/pipeline.hpp"
+#include "tools/process.hpp"
 #include "tools/progress_display.hpp"
 #include "tools/report.hpp"
 #include "tools/run_build.hpp"
-#include "tools/session.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -37,17 +37,16 @@ class Export final : public Command {
         check_outputs(outputs, {input}, exporting_, run_);
 
         const ThreadLimit threads(run_.threads);
-        Model model = open_model(input, accept_edited_);
+        LiveModel live(open_model(input, accept_edited_));
         if (exporting_.uncertainty) {
-            describe_uncertainty(model);
+            live.add_uncertainty();
         }
         RunRecord record;
-        record.model = &model;
+        record.model = live.snapshot();
         const Stopwatch writing;
-        const Meshed meshed = mesh_model(model, false);
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
-            record.written = write_outputs(model, &meshed, outputs, exporting_, run_, {}, display.callback());
+            record.written = write_outputs(*record.model, outputs, exporting_, run_, {}, display.callback());
         }
         record.write_seconds = writing.seconds();
         record.total_seconds = total.seconds();

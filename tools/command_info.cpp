@@ -7,7 +7,7 @@
 #include "tools/describe.hpp"
 #include "tools/open_model.hpp"
 #include "tools/printable.hpp"
-#include "tools/session.hpp"
+#include "tools/process.hpp"
 
 namespace terratet::tools {
 namespace {

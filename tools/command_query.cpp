@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "interp/model_estimator.hpp"
+#include "interp/model_snapshot.hpp"
 #include "io/csv_text.hpp"
 #include "io/read_points.hpp"
 #include "tess/error.hpp"
 #include "tess/model_bounds.hpp"
 #include "tools/command.hpp"
 #include "tools/open_model.hpp"
-#include "tools/session.hpp"
+#include "tools/process.hpp"
 #include "tools/site_options.hpp"
 #include "tools/text.hpp"
 
@@ -52,15 +53,20 @@ class Query final : public Command {
             throw UsageError("query --side: '" + side_ + "' is neither + nor -");
         }
         const ThreadLimit threads(threads_);
-        const Model model = open_model(words_[0], accept_edited_);
+        const ModelSnapshot opened(open_model(words_[0], accept_edited_));
+        const Model& model = opened.model();
         Diagnostics diagnostics;
         const PointTable points = read_points(parse_source(words_[2] == "-" ? "/vsistdin/" : words_[2]), model.frame,
                                               crs_, column_names(columns_), diagnostics);
-        const FaultProximity faults = model_proximity(model);
-        const EstimatorPlan plan =
-            estimator_.empty() ? parse_estimator_plan(model.estimator) : EstimatorPlan(parse_estimator(estimator_));
-        const ModelEstimator estimator(model, faults, plan, {}, {.uncertainty = !no_deviation_});
-        const ModelBounds bounds(model.domain, faults);
+        std::optional<ModelEstimator> other;
+        if (!estimator_.empty()) {
+            other.emplace(model, opened.barriers(), parse_estimator(estimator_), nullptr,
+                          ModelEstimatorOptions{.uncertainty = !no_deviation_});
+        }
+        const ModelEstimator& estimator = other           ? *other
+                                          : no_deviation_ ? opened.estimator()
+                                                          : opened.estimator_with_errors();
+        const ModelBounds bounds(model.domain, opened.barriers());
         for (std::size_t p = 0; p < model.properties.size(); ++p) {
             if (has_samples(model, p)) {
                 asked_.push_back(p);

@@ -48,6 +48,10 @@ Vec3 parse_voxel_size(const std::string& text, double metres_per_unit) {
     return {sizes[0], sizes[1], sizes[2]};
 }
 
+FaultGap fault_gap(const ExportArguments& a) {
+    return choose<FaultGap>("--fault-gap", a.fault_gap, {{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}});
+}
+
 }  // namespace
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
@@ -120,19 +124,14 @@ void check_export_arguments(const ExportArguments& arguments) {
     if (!a.voxel_size.empty()) {
         parse_voxel_size(a.voxel_size, 1.0);
     }
-    collapses_faults(a, "VTU");
-}
-
-bool collapses_faults(const ExportArguments& arguments, const std::string& format) {
-    const ExportArguments a = with_creation_options(arguments);
-    const bool collapse = choose<bool>("--fault-gap", a.fault_gap, {{"keep", false}, {"collapse", true}});
-    return collapse && (format == "VTU" || format == "GLTF");
+    fault_gap(a);
 }
 
 ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {
     const ExportArguments a = with_creation_options(arguments);
     ExportOptions options;
     options.format = a.format;
+    options.fault_gap = fault_gap(a);
     options.clip = a.clip;
     options.compress = a.compress;
     options.local_origin = a.local_origin;

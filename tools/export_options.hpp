@@ -30,9 +30,6 @@ std::vector<OptionGroup> export_options(ExportArguments& arguments);
 /// Creation options (-co COMPRESS=YES) put into their named twins (--compress). Throws UsageError for an unknown one.
 ExportArguments with_creation_options(ExportArguments arguments);
 
-/// Whether a format shows faults without their gaps, as asked: VTU and glTF can.
-bool collapses_faults(const ExportArguments& arguments, const std::string& format);
-
 /// Throws UsageError for what can be refused before there is a model.
 void check_export_arguments(const ExportArguments& arguments);
 

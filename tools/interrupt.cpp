@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "io/output_file.hpp"
-#include "tools/session.hpp"
+#include "tools/exit_code.hpp"
 
 namespace terratet::tools {
 namespace {

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "io/needed_drivers.hpp"
 #include "io/network.hpp"
 
 namespace terratet::tools {

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <ctime>
 #include <filesystem>
-#include <map>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -15,7 +14,7 @@
 #include "io/output_file.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
-#include "tools/session.hpp"
+#include "tools/process.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -64,21 +63,6 @@ void write_named(const std::string& path, const Write& write) {
     } catch (const Error& error) {
         throw Error(fmt::format("{}; written before it: {}", error.what(), names));
     }
-}
-
-/// Throws Error when the result fails its check.
-CollapsedModel collapse_checked(const Model& model, const Meshed& meshed, Collapsing which) {
-    CollapsedModel result = collapse_faults(model, meshed.mesh, meshed.cells, which);
-    const Conformity& c = result.report.conformity;
-    if (!c.proper()) {
-        const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
-        throw Error(
-            fmt::format("--fault-gap collapse: the mesh fails its check, first at ({:.1f}, {:.1f}, {:.1f}): {} "
-                        "cells turned inside out, {} facets without their twin, {} overlapping; volume off by "
-                        "{:.2g}; please report this",
-                        where.x, where.y, where.z, c.not_positive, c.unmatched, c.overlapping, c.volume_error));
-    }
-    return result;
 }
 
 std::time_t now() {
@@ -132,41 +116,26 @@ void check_places(std::vector<std::string> paths, const std::vector<std::string>
     }
 }
 
-Meshed mesh_model(const Model& model, bool verify_delaunay) {
-    const Tessellation tessellation = tessellate(model);
-    Meshed meshed{tessellation.mesh(), {}, verify_delaunay && tessellation.is_delaunay()};
-    meshed.cells = describe_cells(model, meshed.mesh);
-    return meshed;
-}
-
-Written write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
+Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& paths,
                       const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
                       const Progress& progress) {
-    ExportOptions options = writer_options(arguments, model);
+    ExportOptions options = writer_options(arguments, model.model());
     options.overwrite = run.overwrite;
     options.progress = progress;
     Written written;
-    std::map<Collapsing, CollapsedModel> collapsed;
     const auto write_output = [&](const std::string& path) {
         if (names_model(path)) {
-            save_model(path, model, entry, run.overwrite);
+            save_model(path, model.model(), entry, run.overwrite);
             std::error_code no_file;
             const auto bytes = fs::file_size(path, no_file);
             written.outputs.push_back({path, no_file ? 0 : bytes});
             return;
         }
-        const bool all = !model.faults.empty() && collapses_faults(arguments, output_format(path, arguments.format));
-        if (!all && !has_bounds(model)) {
-            written.outputs.push_back(export_model({model, meshed->mesh, meshed->cells}, path, options));
-            return;
+        written.outputs.push_back(export_model(model, path, options));
+        const auto which = collapsing(model.model(), output_format(path, arguments.format), options.fault_gap);
+        if (which && (which == Collapsing::all || !written.collapse)) {
+            written.collapse = model.collapsed(*which).report;
         }
-        const Collapsing which = all ? Collapsing::all : Collapsing::bounds;
-        if (!collapsed.contains(which)) {
-            collapsed.emplace(which, collapse_checked(model, *meshed, which));
-            written.collapse = all || !written.collapse ? collapsed.at(which).report : written.collapse;
-        }
-        const CollapsedModel& result = collapsed.at(which);
-        written.outputs.push_back(export_model({result.model, result.mesh, result.cells}, path, options));
     };
     for (const auto& path : paths) {
         try {

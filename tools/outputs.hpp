@@ -10,7 +10,6 @@
 
 #include "io/export.hpp"
 #include "io/model_store.hpp"
-#include "tess/collapse.hpp"
 #include "tools/command_line.hpp"
 #include "tools/export_options.hpp"
 #include "tools/run_options.hpp"
@@ -28,14 +27,6 @@ void check_outputs(const std::vector<std::string>& paths, const std::vector<std:
 /// The same for outputs of other kinds: `paths` and the report.
 void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run);
 
-/// What all outputs but a model are made from.
-struct Meshed {
-    TetMesh mesh;
-    CellTable cells;
-    bool delaunay = false;  ///< verified with exact predicates, about 10 µs a cell; only if asked for
-};
-Meshed mesh_model(const Model& model, bool verify_delaunay);
-
 /// What was written, and how the faults were collapsed for it.
 struct Written {
     std::vector<OutputRecord> outputs;
@@ -43,8 +34,8 @@ struct Written {
 };
 
 /// Writes all of `paths`: models through `entry`, the rest through their writers. An error names what was written
-/// before. \pre `meshed` is there unless all paths name models.
-Written write_outputs(const Model& model, const Meshed* meshed, const std::vector<std::string>& paths,
+/// before.
+Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& paths,
                       const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
                       const Progress& progress);
 

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "interp/model_estimator.hpp"
-#include "interp/uncertainty.hpp"
 #include "tools/text.hpp"
 
 namespace terratet::tools {
@@ -52,8 +50,8 @@ void check_before_reading(const SiteArguments& site, const ModelArguments& model
     check_model_arguments(model);
 }
 
-Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& arguments, const RunArguments& run,
-                     const Progress& progress, BuildRecord& record) {
+LiveModel read_and_build(const SiteArguments& site_arguments, const ModelArguments& arguments, const RunArguments& run,
+                         const Progress& progress, BuildRecord& record) {
     const auto begin = Clock::now();
     Site site = read_site(site_inputs(site_arguments, run.strict), record.diagnostics, record.counts, progress);
     composite_as_asked(site, site_arguments, record.diagnostics);
@@ -64,31 +62,16 @@ Model read_and_build(const SiteArguments& site_arguments, const ModelArguments& 
     BuildOptions options = build_options(arguments, site);
     options.refine.progress = progress;
     record.estimator = parse_estimator(arguments.estimator);
-    const auto counters = std::make_shared<EstimatorCounters>();
-    std::string fitted;
-    const auto factory = [&](const Model& model, const FaultProximity& faults) -> ValueSource {
-        const auto estimator = std::make_shared<const ModelEstimator>(model, faults, record.estimator, counters);
-        fitted = estimator->plan().to_string();
-        return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
-    };
-    Model model = build(std::move(site), options, factory, record.report, progress);
-    model.estimator = fitted;
+    options.estimator = record.estimator.to_string();
+    LiveModel live(std::move(site), options, record.report, progress);
 
-    record.fallbacks = counters->fallbacks;
-    record.defaults = chosen_defaults(arguments, !site_arguments.z_scale.empty(), model);
+    record.defaults = chosen_defaults(arguments, !site_arguments.z_scale.empty(), live.model());
     record.seconds.insert(record.report.seconds.begin(), record.report.seconds.end());
     auto& all = record.diagnostics;
     const auto& built = record.report.diagnostics;
     all.rejected.insert(all.rejected.end(), built.rejected.begin(), built.rejected.end());
     all.notes.insert(all.notes.end(), built.notes.begin(), built.notes.end());
-    return model;
-}
-
-void describe_uncertainty(Model& model) {
-    const FaultProximity faults = model_proximity(model);
-    const ModelEstimator estimator(model, faults, parse_estimator_plan(model.estimator), {}, {.uncertainty = true});
-    add_uncertainty(model, estimator);
-    model.estimator = estimator.plan().to_string();  // with the factors found, so that they stay
+    return live;
 }
 
 std::uint64_t unmet_cells(const RefineReport& report) {

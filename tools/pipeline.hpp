@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "interp/live_model.hpp"
 #include "io/read_site.hpp"
-#include "tess/build.hpp"
 #include "tools/model_options.hpp"
 #include "tools/run_options.hpp"
 #include "tools/site_options.hpp"
@@ -24,7 +24,6 @@ struct BuildRecord {
     Diagnostics diagnostics;  ///< of reading and of building
     BuildReport report;
     EstimatorSpec estimator;
-    std::uint64_t fallbacks = 0;  ///< of the estimator: values found in a slower or simpler way
     std::vector<std::pair<std::string, std::string>> defaults;  ///< option and value, of those left to be chosen
     std::map<std::string, double> seconds;
 };
@@ -32,12 +31,8 @@ struct BuildRecord {
 /// Refuses what can be refused without reading anything. Throws UsageError.
 void check_before_reading(const SiteArguments& site, const ModelArguments& model, const RunArguments& run);
 
-Model read_and_build(const SiteArguments& site, const ModelArguments& model, const RunArguments& run,
-                     const Progress& progress, BuildRecord& record);
-
-/// Adds what the model's own estimator knows about its values (interp/uncertainty.hpp), and to the estimator's record
-/// how far its errors go. Throws InputError when the model names an estimator that this version does not have.
-void describe_uncertainty(Model& model);
+LiveModel read_and_build(const SiteArguments& site, const ModelArguments& model, const RunArguments& run,
+                         const Progress& progress, BuildRecord& record);
 
 /// Bad cells that no exemption covers: what --strict turns into exit code 4.
 std::uint64_t unmet_cells(const RefineReport& report);

@@ -11,7 +11,7 @@
 #include "tess/quality.hpp"
 #include "tools/calibration_json.hpp"
 #include "tools/printable.hpp"
-#include "tools/session.hpp"
+#include "tools/process.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
@@ -129,7 +129,7 @@ Json refine_json(const RefineReport& report) {
 
 Json final_json(const RunRecord& record) {
     const CellStatistics& cells = record.build->report.final;
-    const double metres = record.model->frame.metres_per_unit;
+    const double metres = record.model->model().frame.metres_per_unit;
     return {{"vertices", cells.vertices},
             {"tetrahedra", cells.tetrahedra},
             {"gap_tetrahedra", cells.gap_tetrahedra},
@@ -143,7 +143,7 @@ Json final_json(const RunRecord& record) {
               {"median", cells.dihedral_median_deg}}},
             {"edge_m", {{"min", cells.edge_min * metres}, {"max", cells.edge_max * metres}}},
             {"fault_crossing_edges", record.build->report.fault_crossing_edges},
-            {"delaunay", record.meshed->delaunay},
+            {"delaunay", record.model->is_delaunay()},
             {"regions", cells.regions},
             {"below",
              {{"dihedral", cells.below_dihedral},
@@ -154,7 +154,7 @@ Json final_json(const RunRecord& record) {
 Json regions_json(const RunRecord& record) {
     Json list = Json::array();
     // Of the collapsed mesh: what is in a fault's gap belongs to the two sides.
-    const CollapsedModel collapsed = collapse_faults(*record.model, record.meshed->mesh, record.meshed->cells);
+    const CollapsedModel& collapsed = record.model->collapsed(Collapsing::all);
     const CellTable& cells = collapsed.cells;
     const auto volumes = region_volumes({collapsed.model, collapsed.mesh, cells});
     for (std::size_t region = 0; region < volumes.size(); ++region) {
@@ -182,7 +182,7 @@ Json fidelity_json(const RunRecord& record) {
     Json fidelity = Json::object();
     const auto& all = record.build->report.fidelity;
     for (std::size_t p = 0; p < all.size(); ++p) {
-        fidelity[record.model->properties[p].name] = {
+        fidelity[record.model->model().properties[p].name] = {
             {"rms", all[p].rms}, {"max", all[p].max}, {"count", all[p].count}};
     }
     return fidelity;
@@ -239,11 +239,11 @@ Json collapse_json(const CollapseReport& collapse, const Frame& frame) {
 }  // namespace
 
 std::string report_text(const RunRecord& record) {
-    const Frame& frame = record.model->frame;
+    const Frame& frame = record.model->model().frame;
     Json report;
     report["terratet"] = version;
     if (record.build != nullptr) {
-        report["input"] = input_json(*record.build, *record.model);
+        report["input"] = input_json(*record.build, record.model->model());
     }
     report["frame"] = {{"crs", frame.crs_name.empty() ? "local" : frame.crs_name},
                        {"unit", frame.unit},
@@ -260,7 +260,7 @@ std::string report_text(const RunRecord& record) {
             options[key] = value;
         }
         report["defaults"] = defaults;
-        report["preprocess"] = preprocess_json(build.report, *record.model);
+        report["preprocess"] = preprocess_json(build.report, record.model->model());
         report["faults"] = faults_json(build.report.faults);
         report["initial"] = initial_json(build.report.initial);
         report["refine"] = refine_json(build.report.refine);
@@ -269,9 +269,9 @@ std::string report_text(const RunRecord& record) {
         report["fidelity"] = fidelity_json(record);
         report["estimator"] = {{"name", build.estimator.name},
                                {"options", options},
-                               {"fitted", record.model->estimator},
-                               {"fallbacks", build.fallbacks},
-                               {"uncertainty", uncertainty_json(*record.model)}};
+                               {"fitted", record.model->model().estimator},
+                               {"fallbacks", build.report.fallbacks},
+                               {"uncertainty", uncertainty_json(record.model->model())}};
     }
     report["outputs"] = Json::array();
     for (const auto& output : record.written.outputs) {

@@ -4,6 +4,7 @@
 /// \file
 /// What was done, for programs (the report, docs/report.md) and for people (the summary).
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,8 @@ namespace terratet::tools {
 
 /// One call that made outputs.
 struct RunRecord {
-    const Model* model = nullptr;
+    std::shared_ptr<const ModelSnapshot> model;
     const BuildRecord* build = nullptr;  ///< null: the model was there already
-    const Meshed* meshed = nullptr;      ///< with `delaunay` verified, when there is a build to report
     Written written;
     double write_seconds = 0;
     double total_seconds = 0;

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/run_build.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include <spdlog/spdlog.h>
 
+#include "tools/process.hpp"
 #include "tools/progress_display.hpp"
 #include "tools/report.hpp"
-#include "tools/session.hpp"
 
 namespace terratet::tools {
 int run_build(const std::string& command, const BuildArguments& a, const std::vector<Given>& given) {
@@ -21,26 +20,21 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
     const ThreadLimit threads(a.run.threads);
     BuildRecord build;
     RunRecord record;
-    Model model;
-    std::optional<Meshed> meshed;
+    std::optional<LiveModel> live;
     {
         ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
         const Progress progress = display.callback();
-        model = read_and_build(a.site, a.model, a.run, progress, build);
+        live.emplace(read_and_build(a.site, a.model, a.run, progress, build));
         if (a.exporting.uncertainty) {
-            describe_uncertainty(model);
+            live->add_uncertainty();
         }
         const Stopwatch writing;
-        if (!a.run.report.empty() || !std::all_of(a.outputs.begin(), a.outputs.end(), names_model)) {
-            meshed = mesh_model(model, !a.run.report.empty());
-        }
-        record.written = write_outputs(model, meshed ? &*meshed : nullptr, a.outputs, a.exporting, a.run,
-                                       journal_entry(command, given), progress);
+        record.model = live->snapshot();
+        record.written =
+            write_outputs(*record.model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);
         record.write_seconds = writing.seconds();
     }
-    record.model = &model;
     record.build = &build;
-    record.meshed = meshed ? &*meshed : nullptr;
     record.total_seconds = total.seconds();
     write_report(record, a.run);
     spdlog::info("{}", summary_text(record));

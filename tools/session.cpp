@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/session.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -12,7 +10,6 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <tbb/global_control.h>
 
 #include "tess/error.hpp"
 #include "tools/command.hpp"
@@ -23,6 +20,7 @@
 #include "tools/man_page.hpp"
 #include "tools/offline.hpp"
 #include "tools/printable.hpp"
+#include "tools/process.hpp"
 #include "tools/text.hpp"
 #include "tools/version.hpp"
 
@@ -90,15 +88,6 @@ int fail(int exit_code, const char* what) {
 
 }  // namespace
 
-int print(const std::string& data) {
-    const bool seen = isatty(STDOUT_FILENO) == 1;
-    const std::string text = seen ? printable(data, true) : data;
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw Error("standard output cannot be written to");
-    }
-    return exit_done;
-}
-
 int run_terratet(const std::vector<std::string>& arguments) {
     try {
         start_log();
@@ -123,18 +112,5 @@ int run_terratet(const std::vector<std::string>& arguments) {
                                      .c_str());
     }
 }
-
-struct ThreadLimit::Control {
-    tbb::global_control control;
-};
-
-ThreadLimit::ThreadLimit(std::uint64_t threads) {
-    if (threads > 0) {
-        control_ = std::make_unique<Control>(
-            Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, threads)});
-    }
-}
-
-ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace terratet::tools

@@ -134,10 +134,10 @@ std::string summary_text(const RunRecord& record) {
     if (record.build != nullptr) {
         out += input_lines(*record.build);
     }
-    const Frame& frame = record.model->frame;
+    const Frame& frame = record.model->model().frame;
     out += line("Frame", fmt::format("{}, unit {}", frame.crs_name.empty() ? "local" : frame.crs_name, frame.unit));
     if (record.build != nullptr) {
-        out += build_lines(*record.build, *record.model);
+        out += build_lines(*record.build, record.model->model());
     }
     if (record.written.collapse) {
         const CollapseReport& collapse = *record.written.collapse;

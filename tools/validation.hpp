@@ -12,6 +12,7 @@
 #include "interp/cross_validation.hpp"
 #include "interp/variogram_fit.hpp"
 #include "io/write_svg.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet::tools {
 

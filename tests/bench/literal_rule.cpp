@@ -22,7 +22,7 @@
 #include <deque>
 
 #include "refinement_sites.hpp"
-#include "tess/density.hpp"
+#include "tess/density_edition.hpp"
 
 using namespace terratet;
 

@@ -6,6 +6,7 @@
 
 #include "peer.hpp"
 #include "tess/refine.hpp"
+#include "tess/refinement.hpp"
 
 namespace terratet::bench {
 

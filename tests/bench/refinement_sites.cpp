@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/read_site.hpp"
+#include "tess/density_edition.hpp"
 #include "tests/support.hpp"
 #include "tests/tess/worlds.hpp"
 

@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/model_source.hpp"
+#include <iostream>
+
+#include "interp/live_model.hpp"
 #include "io/export.hpp"
 #include "io/read_site.hpp"
-#include "tess/build.hpp"
 
-using namespace terratet;
-
-// first_model SAMPLES.csv OUTPUT.vtu: the program of the README.
+// first_model COLLAR.csv LOG.csv OUTPUT: what `terratet convert` does, a value, and who is next to a borehole.
 int main(int, char** argv) {
-    SiteInputs inputs{.samples = {parse_source(argv[1])}, .source_crs = "EPSG:3067"};
-    Diagnostics diagnostics;
-    ReadCounts counts;
-    BuildReport report;
-    const auto natural = [](const Model& m, const FaultProximity& faults) { return make_model_source(m, faults, {}); };
-    const Model model = build(read_site(inputs, diagnostics, counts), {}, natural, report);
-    const TetMesh mesh = tessellate(model).mesh();
-    export_model({model, mesh, describe_cells(model, mesh)}, argv[2], {});
+    using namespace terratet;
+    Diagnostics said;
+    const LiveModel model(read_site({.boreholes = {{argv[1]}}, .logs = {{argv[2]}}, .source_crs = "EPSG:3067"}, said));
+    export_model(model, argv[3]);
+    const Vec3 place = model.model().frame.to_local({525520, 6792020, -25});
+    std::cout << model.values({{place}})[0].value[0] << '\n' << model.neighbours_of("B12").size() << '\n';
 }

@@ -71,9 +71,10 @@ Model built(const Sides& sides, BuildReport& report) {
     options.extent = sides.extent;
     options.criteria.l_min = 60;
     options.criteria.l_max = 240;
-    return build(
-        std::move(site), options,
-        [](const Model& model, const FaultProximity& faults) { return make_model_source(model, faults, {}); }, report);
+    const auto source = [](const Model& model, const FaultProximity& faults) {
+        return make_model_source(model, faults, {});
+    };
+    return std::move(build(std::move(site), options, source, report)->model);
 }
 
 /// Of values at places: how many are none of the sides' own, and how many are another side's.
@@ -249,7 +250,7 @@ TEST_CASE("A continuation stops at the fault that its own ends on, however obliq
         sides.value = [](const Vec3& p) { return p.x > 500 ? 1 : 0; };
         BuildReport report;
         const Model model = built(sides, report);
-        const Barriers barriers = estimation_barriers(model);
+        const EstimationBarriers barriers = estimation_barriers(model, model.domain, model.faults);
         REQUIRE(barriers.soft.size() == 2);
         for (std::size_t f = 0; f < 2; ++f) {
             INFO(model.faults[f].name);
@@ -343,7 +344,7 @@ TEST_CASE(
     const auto factory = [](const Model& model, const FaultProximity& faults) {
         return make_model_source(model, faults, {});
     };
-    const Model model = build(site, options, factory, report);
+    const Model model = std::move(build(site, options, factory, report)->model);
     REQUIRE(model.faults.size() == 1);
     const FaultProximity faults = model_proximity(model);
     CHECK_FALSE(faults.crosses_any({500, 500, 200}, {500, 500, 500}));
@@ -373,7 +374,7 @@ TEST_CASE(
     Site soft = site;
     soft.properties[1].hard_horizons = soft.properties[3].hard_horizons = false;
     BuildReport soft_report;
-    const Model without = build(soft, options, factory, soft_report);
+    const Model without = std::move(build(soft, options, factory, soft_report)->model);
     CHECK(report.final.regions == soft_report.final.regions);
     const auto of_hard = ModelEstimator(model, faults, {}).values(queries);
     const auto of_soft = ModelEstimator(without, model_proximity(without), {}).values(queries);

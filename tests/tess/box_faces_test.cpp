@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tess/box_faces.hpp"
-#include "tess/density.hpp"
+#include "tess/density_edition.hpp"
 #include "tess/refine.hpp"
 #include "tests/support.hpp"
 

@@ -116,7 +116,7 @@ TEST_CASE("A linear field is reproduced at every sample, dropped ones included")
         world.site.samples.values[1][i] = missing;
     }
     BuildReport report;
-    const Model model = build(
+    const auto built = build(
         world.site, world.options,
         [&](const Model&, const FaultProximity&) {
             return [&](std::span<const ValueQuery> queries) {
@@ -129,6 +129,7 @@ TEST_CASE("A linear field is reproduced at every sample, dropped ones included")
             };
         },
         report);
+    const Model& model = built->model;
     REQUIRE(report.fidelity.size() == 2);
     CHECK(report.fidelity[0].count == model.samples.size());
     CHECK(report.fidelity[0].count > report.density.kept.size());

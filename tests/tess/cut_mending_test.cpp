@@ -51,7 +51,7 @@ CutMesh shaken_lattice(std::uint64_t seed, double by) {
 std::map<Triangle, int> walls(const CutMesh& mesh) {
     std::map<Triangle, std::pair<int, int>> sides;  // cells, sum of parts
     for (const CutMesh::Cell& cell : mesh.cells) {
-        for (const auto& o : outward_corners) {
+        for (const auto& o : facet_corners) {
             Triangle key{cell.corners[o[0]], cell.corners[o[1]], cell.corners[o[2]]};
             std::ranges::sort(key);
             ++sides[key].first;

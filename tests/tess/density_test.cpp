@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/density.hpp"
+#include "tess/density_edition.hpp"
 #include "tess/property.hpp"
 #include "tests/support.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "tess/fault_preparation.hpp"
+#include "tess/fault.hpp"
 #include "tests/tess/worlds.hpp"
 
 namespace terratet {

@@ -9,6 +9,7 @@
 
 #include "tess/cells.hpp"
 #include "tess/quality.hpp"
+#include "tess/refine.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
 

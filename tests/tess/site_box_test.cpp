@@ -41,7 +41,7 @@ const Box3 block{{500000, 6000000, -400}, {501000, 6001000, 0}};
 
 BuildReport built(Site site, const BuildOptions& options, Model& model) {
     BuildReport report;
-    model = build(std::move(site), options, testing::analytic_field(), report);
+    model = std::move(build(std::move(site), options, testing::analytic_field(), report)->model);
     return report;
 }
 

@@ -195,7 +195,7 @@ ValueSourceFactory analytic_field() {
 
 Built build_world(const World& world) {
     Built built;
-    built.model = build(world.site, world.options, analytic_field(), built.report);
+    built.model = std::move(build(world.site, world.options, analytic_field(), built.report)->model);
     return built;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tess/density.hpp"
+#include "tess/density_edition.hpp"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "tess/fault_approach.hpp"
+#include "tess/protection_radii.hpp"
+#include "tess/fault.hpp"
 #include "tess/fault_mesh.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/verify.hpp"

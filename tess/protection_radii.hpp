@@ -2,21 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: how near other vertices may come to a fault, place by place. Where its triangles are smaller than the
+/// How near other vertices may come to a fault, place by place. Where its triangles are smaller than the
 /// spacing, r_p = √(ρ² + ε²/4) is smaller as well, with the ρ and ε of the place.
 
 #include <span>
 #include <vector>
 
-#include "tess/fault.hpp"
-#include "tess/fault_complex.hpp"
-#include "tess/fault_mesher.hpp"
+#include "tess/barrier.hpp"
 
 namespace terratet {
-
-/// Where the complex wants triangles how small, down to an eighth of the spacing, that each sample nearer to it than
-/// r_p may stay.
-std::vector<WantedSize> places_near(std::span<const Vec3> samples, const FaultComplex& complex, double spacing);
 
 /// The protection radius of each triangle of a fault, its sheet's and then its margin's: the fault's own, or less where
 /// the triangle's corners are base points that are nearer together. It is the fault's own where the seeds of another

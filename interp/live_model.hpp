@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// A model to work with: from a site, or as it was stored, to values, meshes, and back after a change.
+///
+/// One writer at a time, any number of readers: a reader takes a snapshot, which stays as it is for as long as it is
+/// held, whatever happens to the model meanwhile. The functions here that only read speak of the newest state.
+
+#include <memory>
+#include <string>
+
+#include "interp/model_snapshot.hpp"
+#include "tess/build.hpp"
+
+namespace terratet {
+
+class LiveModel {
+  public:
+    /// A stored model. Throws UsageError when it names an estimator that there is not.
+    explicit LiveModel(Model model);
+
+    /// Builds (tess/build.hpp says how, and what it throws). options.estimator names the estimator, empty: natural
+    /// neighbour; the model keeps it as it was fitted.
+    explicit LiveModel(Site site, const BuildOptions& options = {}, const Progress& progress = {});
+    LiveModel(Site site, const BuildOptions& options, BuildReport& report, const Progress& progress = {});
+    ~LiveModel();
+    LiveModel(LiveModel&&) noexcept;
+    LiveModel& operator=(LiveModel&&) noexcept;
+
+    /// The newest state. Safe from any thread.
+    [[nodiscard]] std::shared_ptr<const ModelSnapshot> snapshot() const;
+    [[nodiscard]] const Model& model() const { return snapshot()->model(); }
+
+    /// All properties at a place, in frame-local coordinates (Frame::to_local), with deviations.
+    [[nodiscard]] std::vector<PropertyEstimates> values(std::span<const ValueQuery> places) const {
+        return snapshot()->estimator_with_errors().estimates(places);
+    }
+    [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const {
+        return snapshot()->neighbours_of(borehole);
+    }
+
+    /// What the estimator knows about its values becomes further properties of the vertices (interp/uncertainty.hpp),
+    /// and the model keeps how far errors go.
+    void add_uncertainty();
+
+    /// Takes a surface of that name out and builds again with all else as it was. Throws UsageError when there is none.
+    void remove_surface(const std::string& name, const Progress& progress = {});
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terratet

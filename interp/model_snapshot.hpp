@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// One state of a model, and all that follows from it: tessellation, barrier queries, cell table, estimators, the mesh
+/// without gaps. Each is made once, when it is first asked for, and shared by all who ask. Const, and safe from many
+/// threads.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interp/model_estimator.hpp"
+#include "tess/build.hpp"
+#include "tess/collapse.hpp"
+
+namespace terratet {
+
+class ModelSnapshot {
+  public:
+    /// As it was stored. Throws UsageError when it names an estimator that there is not.
+    explicit ModelSnapshot(Model model);
+
+    /// As it was built, with what the build made; `estimator` is of that model and its barriers.
+    ModelSnapshot(std::unique_ptr<TessellatedModel> built, std::shared_ptr<const ModelEstimator> estimator);
+    ~ModelSnapshot();
+    ModelSnapshot(const ModelSnapshot&) = delete;
+    ModelSnapshot& operator=(const ModelSnapshot&) = delete;
+
+    [[nodiscard]] const Model& model() const;
+    [[nodiscard]] const FaultProximity& barriers() const;
+    [[nodiscard]] const TetMesh& mesh() const;
+    [[nodiscard]] const CellTable& cells() const;
+
+    /// Guarantee R5, verified with exact predicates: about 10 µs a cell.
+    [[nodiscard]] bool is_delaunay() const;
+
+    /// Its faults without width, or its bounds alone (tess/collapse.hpp). Throws Error when the result fails its check.
+    [[nodiscard]] const CollapsedModel& collapsed(Collapsing which) const;
+
+    /// The model's own estimator, for values; the other also knows how far its errors go, for which boreholes are left
+    /// out where the model does not say yet: seconds.
+    [[nodiscard]] const ModelEstimator& estimator() const;
+    [[nodiscard]] const ModelEstimator& estimator_with_errors() const;
+
+    /// The vertices next to a borehole's own in the Voronoi sense, ascending: whose cells share a wall with one of its
+    /// samples' cells. Throws UsageError when there is no such borehole. O(cells).
+    [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const;
+
+    /// What the estimator knows about its values becomes further properties of the vertices (interp/uncertainty.hpp).
+    /// \pre Nobody else has the snapshot yet.
+    void add_uncertainty();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terratet

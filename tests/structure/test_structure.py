@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plan of the house, read from the includes: floors and rooms, lowest first. A file may include what lies at the top of
+its own floor or of one below, and in rooms that are not above its own; what is installed includes only what is installed."""
+import collections
+import pathlib
+import re
+import statistics
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FLOORS = {
+    "tess": ["base", "site", "mesh", "barrier/complex", "barrier/query", "barrier/seeds", "barrier/prepare", "model",
+             "refine", "cells", "mending", "collapse", "edit"],
+    "interp": ["base", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
+    "io": ["base", "read", "model", "write"],
+    "tools": ["options", "report", "commands"],
+}
+LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE = 450, 4500, 110
+
+
+def stem(path):
+    """One operation, one stem: a header at a floor's top and its source in a room are one."""
+    return path.parts[0] + ":" + path.name.split(".")[0]
+
+
+class House:
+    def __init__(self, root, floors):
+        self.floors = floors
+        self.lines, self.includes = {}, {}
+        for floor in floors:
+            for path in sorted((root / floor).rglob("*.[ch]pp")):
+                text = path.read_text()
+                name = path.relative_to(root)
+                self.lines[name] = text.count("\n")
+                self.includes[name] = [pathlib.PurePath(found) for found in re.findall(r'^#include "([^"]+)"', text, re.M)
+                                       if found.split("/")[0] in floors]
+        self.room_of_stem = {stem(path): self.room(path) for path in self.lines if self.room(path) != ""}
+
+    @staticmethod
+    def room(path):
+        return "/".join(path.parts[1:-1])
+
+    def level(self, path):
+        """A header at the top is as high as the room its source lies in, or as what it includes."""
+        floor = path.parts[0]
+        room = self.room(path) or self.room_of_stem.get(stem(path))
+        if room is not None:
+            return self.floors[floor].index(room) if room in self.floors[floor] else None
+        below = [self.level(other) for other in self.includes.get(path, []) if other.parts[0] == floor]
+        return max([-1, *(level for level in below if level is not None)])
+
+    def faults(self, public=None):
+        """Each in a sentence."""
+        found = []
+        order = list(self.floors)
+        for path, includes in self.includes.items():
+            floor = path.parts[0]
+            if self.room(path) and self.room(path) not in self.floors[floor]:
+                found.append(f"{path} is in no room of the plan")
+                continue
+            if not self.room(path) and path.suffix == ".cpp" and floor != "tools":
+                found.append(f"{path} is at the floor's top, where only what is installed lies")
+            for other in includes:
+                if other not in self.lines:
+                    found.append(f"{path} includes {other}, which is not there")
+                elif order.index(other.parts[0]) > order.index(floor):
+                    found.append(f"{path} includes {other} from a floor above")
+                elif other.parts[0] == floor and self.level(other) > self.level(path):
+                    found.append(f"{path} includes {other} from a room above")
+                elif self.room(path) == "" and self.room(other) != "" and path.suffix == ".hpp":
+                    found.append(f"{path} is installed and includes {other}, which is not")
+        found += self.circles()
+        for path in public or []:
+            if self.room(path):
+                found.append(f"{path} is installed, but lies in a room")
+        if public is not None:
+            found += [f"{path} lies at the top, but is not installed" for path in self.lines
+                      if path.suffix == ".hpp" and not self.room(path) and path.parts[0] != "tools" and path not in public]
+        return found
+
+    def circles(self):
+        next_ = collections.defaultdict(set)
+        for path, includes in self.includes.items():
+            next_[stem(path)] |= {stem(other) for other in includes} - {stem(path)}
+        found, state = [], {}
+
+        def visit(one, way):
+            state[one] = "open"
+            for other in sorted(next_[one]):
+                if state.get(other) == "open":
+                    found.append("a circle of stems: " + " -> ".join([*way[way.index(other):], other]))
+                elif other not in state:
+                    visit(other, [*way, other])
+            state[one] = "done"
+
+        for one in sorted(next_):
+            if one not in state:
+                visit(one, [one])
+        return found
+
+    def rooms(self):
+        sizes = collections.Counter()
+        for path, lines in self.lines.items():
+            sizes[path.parts[0] + "/" + self.room(path)] += lines
+        return sizes
+
+
+def installed(root):
+    """The headers that the floors' CMake files list."""
+    public = set()
+    for floor in FLOORS:
+        text = (root / floor / "CMakeLists.txt").read_text()
+        listed = re.search(r"\bHEADERS\b(.*?)\b(PUBLIC|PRIVATE)\b", text, re.S)
+        public |= {pathlib.PurePath(floor, name) for name in (listed.group(1).split() if listed else [])}
+    return public
+
+
+class Structure(unittest.TestCase):
+    house = House(ROOT, FLOORS)
+
+    def test_arrows_point_down_no_circle_and_only_the_top_is_installed(self):
+        self.assertEqual(self.house.faults(installed(ROOT)), [])
+
+    def test_files_and_rooms_are_small(self):
+        lines = self.house.lines
+        self.assertEqual([f"{path}: {n}" for path, n in lines.items() if n > LONGEST_FILE], [])
+        self.assertEqual([f"{room}: {n}" for room, n in self.house.rooms().items() if n > LARGEST_ROOM], [])
+        self.assertLessEqual(statistics.median(lines.values()), MEDIAN_FILE)
+
+
+class ReadsTheIncludes(unittest.TestCase):
+    """The reader itself, on houses with one fault each."""
+
+    def faults(self, files, public=None):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = pathlib.Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            house = House(pathlib.Path(folder), {"low": ["cellar", "kitchen"], "high": ["attic"]})
+            return house.faults(None if public is None else {pathlib.PurePath(name) for name in public})
+
+    def test_a_sound_house(self):
+        self.assertEqual(self.faults({"low/value.hpp": "", "low/kitchen/value.cpp": '#include "low/cellar/coal.hpp"\n',
+                                      "low/cellar/coal.hpp": "", "high/attic/box.cpp": '#include "low/value.hpp"\n'},
+                                     ["low/value.hpp"]), [])
+
+    def test_an_arrow_up(self):
+        above = self.faults({"low/cellar/coal.hpp": '#include "high/attic/box.hpp"\n', "high/attic/box.hpp": ""})
+        self.assertEqual(above, ["low/cellar/coal.hpp includes high/attic/box.hpp from a floor above"])
+        room = self.faults({"low/cellar/coal.hpp": '#include "low/kitchen/stove.hpp"\n', "low/kitchen/stove.hpp": ""})
+        self.assertEqual(room, ["low/cellar/coal.hpp includes low/kitchen/stove.hpp from a room above"])
+        top = self.faults({"low/cellar/coal.cpp": '#include "low/value.hpp"\n', "low/value.hpp": "",
+                           "low/kitchen/value.cpp": '#include "low/value.hpp"\n'})
+        self.assertEqual(top, ["low/cellar/coal.cpp includes low/value.hpp from a room above"])
+
+    def test_a_circle_of_stems(self):
+        self.assertEqual(self.faults({"low/cellar/a.cpp": '#include "low/cellar/b.hpp"\n', "low/cellar/a.hpp": "",
+                                      "low/cellar/b.hpp": '#include "low/cellar/a.hpp"\n'}),
+                         ["a circle of stems: low:a -> low:b -> low:a"])
+
+    def test_what_is_installed(self):
+        files = {"low/value.hpp": '#include "low/cellar/coal.hpp"\n', "low/cellar/coal.hpp": ""}
+        self.assertEqual(self.faults(files), ["low/value.hpp is installed and includes low/cellar/coal.hpp, which is not"])
+        self.assertEqual(self.faults({"low/cellar/coal.hpp": ""}, ["low/cellar/coal.hpp"]),
+                         ["low/cellar/coal.hpp is installed, but lies in a room"])
+        self.assertEqual(self.faults({"low/value.hpp": ""}, []), ["low/value.hpp lies at the top, but is not installed"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -11,9 +11,12 @@
 
 #include "interp/beside_barriers.hpp"
 #include "interp/error_study.hpp"
+#include "interp/estimator_spec.hpp"
 #include "interp/extrapolation.hpp"
+#include "interp/fitted_estimator.hpp"
 #include "interp/folds.hpp"
 #include "interp/learned_errors.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/variogram_fit.hpp"
 
 namespace terratet {

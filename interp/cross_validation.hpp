@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interp/estimator_spec.hpp"
 #include "interp/model_estimator.hpp"
 
 namespace terratet {

@@ -5,68 +5,19 @@
 /// Estimators: values at places from the original samples. Every method here is linear, so an estimator yields weights
 /// over its sites and serves all properties measured at the same sites at once.
 ///
-/// Specification syntax, as in gdal_grid: `NAME[:key=value]…`; estimator_catalogue.hpp lists names and options.
 /// Faults are barriers: a sample counts only if the segment to it crosses no fault's sheet; weights are renormalised.
 /// A place all of whose samples are hidden gets no value.
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "interp/anisotropy.hpp"
-#include "interp/calibration.hpp"
-#include "tess/fault_proximity.hpp"
-#include "tess/property.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
-
-struct EstimatorSpec {
-    std::string name = "natural";
-    std::map<std::string, std::string> options;
-
-    /// With every option that has a default written out: what the model records.
-    [[nodiscard]] std::string to_string() const;
-
-    /// With the options that were given alone.
-    [[nodiscard]] std::string as_given() const;
-};
-
-/// Parses and checks names, options and ranges. Throws UsageError that lists what there is.
-EstimatorSpec parse_estimator(const std::string& text);
-
-/// What is known of a property from all of its samples.
-struct ColumnTraits {
-    double lowest = 0;  ///< of the values, in the scale
-    double highest = 0;
-    double reach = 0;  ///< reach_of (extrapolation.hpp)
-};
-
-/// The estimators of a model's properties: one for all, but for those that have their own. Text: a specification, and
-/// on further lines `SPEC of PROPERTY`, `samples:lowest=…:highest=…:reach=… of PROPERTY`, and how far errors were found
-/// to go, as `CALIBRATION of PROPERTY`.
-struct EstimatorPlan {
-    EstimatorSpec general;
-    std::map<std::string, EstimatorSpec> of_property;
-    std::map<std::string, ColumnTraits> traits{};       ///< of properties; missing: found from the samples
-    std::map<std::string, Calibration> calibrations{};  ///< of properties; missing: found when errors are asked for
-
-    EstimatorPlan() = default;
-    EstimatorPlan(EstimatorSpec spec) : general(std::move(spec)) {}  // NOLINT: one for all is the usual plan
-
-    [[nodiscard]] const EstimatorSpec& of(const std::string& property) const;
-    [[nodiscard]] std::string to_string() const;
-};
-
-/// Of an empty text the default: natural neighbour for all. Throws UsageError as parse_estimator does, also for traits
-/// or a calibration that no samples can have.
-EstimatorPlan parse_estimator_plan(const std::string& text);
 
 struct SiteWeight {
     std::uint32_t site;
@@ -111,30 +62,5 @@ class Estimator {
     /// Do its weights come with a variance of their own?
     [[nodiscard]] virtual bool has_variance() const { return false; }
 };
-
-/// \pre `spec` lacks nothing (needs_values)
-/// \param sites     distinct positions, at least one
-/// \param faults    barriers; must outlive the estimator; may be null
-/// \param boreholes of each site its borehole, −1 for a loose one, for methods that limit how many of one borehole they
-///                  take; empty: all loose
-std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
-                                          const FaultProximity* faults, std::vector<std::int32_t> boreholes = {});
-
-/// Its options azimuth, dip, roll, ratio2 and ratio3.
-Anisotropy anisotropy_of(const EstimatorSpec& spec);
-
-/// The distance over which its variogram's samples tell something (Variogram::practical_range); none without one.
-/// \pre `spec` lacks nothing
-std::optional<double> range_of(const EstimatorSpec& spec);
-
-/// Does it leave a variogram's parameters to be fitted?
-bool needs_values(const EstimatorSpec& spec);
-
-/// With what it leaves open fitted to values in the property's scale (variogram_fit.hpp, kriging_drift.hpp); as it is
-/// when no parameter of the variogram is open.
-/// \param faults  barriers; may be null
-EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
-                               std::span<const std::int32_t> boreholes, Kind kind = Kind::continuous,
-                               const FaultProximity* faults = nullptr, std::size_t most_samples = 5000);
 
 }  // namespace terratet

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "interp/anisotropy.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/kriging_spec.hpp"
 #include "interp/morton.hpp"
 #include "interp/site_tree.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
 
 namespace terratet {
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "interp/estimator.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/linear_precision.hpp"
 #include "tess/samples.hpp"
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "interp/fitted_variogram.hpp"
 #include "interp/folds.hpp"
 #include "interp/kriging_system.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/variogram_fit.hpp"
 
 namespace terratet {
@@ -71,8 +73,7 @@ std::string better_drift(const EstimatorSpec& open, std::span<const Vec3> all_si
                 known.push_back(values[i]);
                 holes.push_back(boreholes[i]);
             }
-            const auto fitted =
-                fitted_estimator(spec, some, known, holes, Kind::continuous, faults, samples_of_fold_fit);
+            const auto fitted = with_fitted_variogram(spec, some, known, holes, Kind::continuous, samples_of_fold_fit);
             return make_estimator(fitted, std::move(some), faults, std::move(holes));
         };
         for_each_left_out(sites, groups, make, {}, [&](std::uint32_t site, const Weights& weights, const auto&) {

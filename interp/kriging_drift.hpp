@@ -5,7 +5,12 @@
 /// Is there a trend? Ordinary kriging knows an unknown mean only; along a trend it is biased beyond the outermost
 /// samples and its variogram, which never ends rising, states errors several times too large.
 
-#include "interp/estimator.hpp"
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "interp/estimator_spec.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 

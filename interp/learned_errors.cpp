@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "interp/error_study.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/fitted_estimator.hpp"
 #include "interp/folds.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/variogram_fit.hpp"
 
 namespace terratet {

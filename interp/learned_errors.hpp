@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interp/calibration.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/linear_precision.hpp"
 #include "interp/local_error.hpp"
 #include "tess/samples.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interp/estimator_plan.hpp"
 #include "interp/slopes.hpp"
 
 namespace terratet {

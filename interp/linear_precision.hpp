@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "interp/estimator.hpp"
+#include "interp/estimator_plan.hpp"
 
 namespace terratet {
 

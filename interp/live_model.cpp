@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/live_model.hpp"
+#include "interp/estimator_plan.hpp"
 
 #include <algorithm>
 #include <mutex>

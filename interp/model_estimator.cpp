@@ -10,9 +10,12 @@
 #include <utility>
 
 #include "interp/beside_barriers.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/extrapolation.hpp"
+#include "interp/fitted_estimator.hpp"
 #include "interp/learned_errors.hpp"
 #include "interp/linear_precision.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/query_order.hpp"
 
 namespace terratet {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator_plan.hpp"
 #include "tess/model.hpp"
 
 namespace terratet {

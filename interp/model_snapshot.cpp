@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "interp/estimator_plan.hpp"
 #include "interp/uncertainty.hpp"
 #include "tess/error.hpp"
 

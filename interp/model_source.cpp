@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/model_source.hpp"
+#include "interp/estimator_plan.hpp"
 
 #include <utility>
 

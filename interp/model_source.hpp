@@ -4,6 +4,7 @@
 /// \file
 /// The bridge between estimators and the tessellation: a ValueSource over a model's samples.
 
+#include "interp/estimator_plan.hpp"
 #include "interp/model_estimator.hpp"
 
 namespace terratet {

@@ -42,12 +42,6 @@ struct VariogramFit {
 VariogramFit fit_variogram(std::span<const Vec3> places, std::span<const double> values,
                            std::span<const std::int32_t> boreholes, const VariogramRequest& request);
 
-/// The same for what a kriging specification leaves open, about a plane where its drift is linear; any other method's:
-/// a spherical model. Values of kind categorical are classes.
-VariogramFit fit_variogram(const struct EstimatorSpec& spec, std::span<const Vec3> places,
-                           std::span<const double> values, std::span<const std::int32_t> boreholes, Kind kind,
-                           std::size_t most_samples = 5000);
-
 /// Of the many fits where boreholes are left out.
 constexpr std::size_t samples_of_fold_fit = 2000;
 

@@ -366,15 +366,4 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
     return content;
 }
 
-bool is_storable(const std::string& text) {
-    if (text.find('\0') != std::string::npos) {
-        return false;
-    }
-    try {
-        return !json(text).dump().empty();
-    } catch (const json::type_error&) {  // not UTF-8
-        return false;
-    }
-}
-
 }  // namespace terratet

@@ -39,7 +39,4 @@ struct MetaContent {
 /// Throws InputError naming `file` and the key.
 MetaContent from_meta(const Meta& meta, const std::string& file);
 
-/// Text the model file can hold: UTF-8 without NUL.
-bool is_storable(const std::string& text);
-
 }  // namespace terratet

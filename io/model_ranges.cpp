@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator_plan.hpp"
 #include "io/crs.hpp"
-#include "io/model_meta.hpp"
 #include "io/model_schema.hpp"
+#include "io/storable.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -14,6 +14,7 @@
 #include "io/model_store.hpp"
 #include "io/output_file.hpp"
 #include "io/source.hpp"
+#include "io/storable.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

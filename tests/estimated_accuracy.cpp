@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/estimated_accuracy.hpp"
+#include "interp/estimator_plan.hpp"
 
 namespace terratet::testing {
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "interp/estimator_spec.hpp"
 #include "interp/model_snapshot.hpp"
 #include "io/csv_text.hpp"
 #include "io/read_points.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "interp/estimator_spec.hpp"
 #include "io/output_file.hpp"
 #include "tess/error.hpp"
 #include "tools/command.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "interp/estimator_spec.hpp"
 #include "io/memory_limit.hpp"
 #include "io/read_table.hpp"
 #include "io/source.hpp"

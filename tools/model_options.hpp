@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
 #include "tess/build.hpp"
 #include "tools/option.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "interp/estimator_plan.hpp"
 #include "interp/model_source.hpp"
 #include "io/model_store.hpp"
 #include "tess/error.hpp"

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "interp/estimator_spec.hpp"
 #include "tools/text.hpp"
 
 namespace terratet::tools {

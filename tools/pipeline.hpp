@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "interp/estimator_spec.hpp"
 #include "interp/live_model.hpp"
 #include "io/read_site.hpp"
 #include "tools/model_options.hpp"

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "interp/estimator_plan.hpp"
 #include "io/output_file.hpp"
 #include "tess/fault_proximity.hpp"
 #include "tess/quality.hpp"

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "interp/estimator_spec.hpp"
+#include "interp/fitted_variogram.hpp"
 #include "tools/calibration_json.hpp"
 #include "tools/text.hpp"
 

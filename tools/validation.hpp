@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "interp/cross_validation.hpp"
+#include "interp/estimator_spec.hpp"
 #include "interp/variogram_fit.hpp"
 #include "io/write_svg.hpp"
 #include "tess/progress.hpp"

@@ -15,6 +15,8 @@
 #include "bench/memory.hpp"
 #include "bench/timing.hpp"
 #include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

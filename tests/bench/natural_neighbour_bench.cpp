@@ -26,6 +26,8 @@
 #include <fstream>
 #include <string>
 
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/morton.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "regular_sites.hpp"

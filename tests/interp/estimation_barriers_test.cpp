@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "estimation.hpp"
+#include "interp/estimator_spec.hpp"
 #include "interp/lattice.hpp"
 #include "interp/model_estimator.hpp"
 #include "interp/model_source.hpp"

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -9,6 +9,8 @@
 
 #include "estimation.hpp"
 #include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/morton.hpp"
 #include "sites.hpp"
 

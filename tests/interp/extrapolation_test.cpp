@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "estimation.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"

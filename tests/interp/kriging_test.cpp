@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/kriging.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 
 #include <tbb/global_control.h>
 

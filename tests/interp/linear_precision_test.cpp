@@ -11,7 +11,9 @@
 #include <set>
 
 #include "estimation.hpp"
+#include "interp/estimator_spec.hpp"
 #include "interp/extrapolation.hpp"
+#include "interp/make_estimator.hpp"
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
 

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "estimation.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/folds.hpp"
 #include "interp/uncertainty.hpp"
 #include "sites.hpp"

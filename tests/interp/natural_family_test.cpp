@@ -9,6 +9,8 @@
 #include "estimation.hpp"
 #include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
+#include "interp/estimator_spec.hpp"
+#include "interp/make_estimator.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"

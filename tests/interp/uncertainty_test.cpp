@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "estimation.hpp"
+#include "interp/estimator_plan.hpp"
 #include "interp/local_error.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"

@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "estimation.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator_plan.hpp"
+#include "interp/fitted_estimator.hpp"
 #include "interp/variogram_fit.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"

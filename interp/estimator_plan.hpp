@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Which estimator for which property, as a model keeps it.
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "interp/calibration.hpp"
+#include "interp/estimator_spec.hpp"
+
+namespace terratet {
+
+/// What is known of a property from all of its samples.
+struct ColumnTraits {
+    double lowest = 0;  ///< of the values, in the scale
+    double highest = 0;
+    double reach = 0;  ///< reach_of (extrapolation.hpp)
+};
+
+/// The estimators of a model's properties: one for all, but for those that have their own. Text: a specification, and
+/// on further lines `SPEC of PROPERTY`, `samples:lowest=…:highest=…:reach=… of PROPERTY`, and how far errors were found
+/// to go, as `CALIBRATION of PROPERTY`.
+struct EstimatorPlan {
+    EstimatorSpec general;
+    std::map<std::string, EstimatorSpec> of_property;
+    std::map<std::string, ColumnTraits> traits{};       ///< of properties; missing: found from the samples
+    std::map<std::string, Calibration> calibrations{};  ///< of properties; missing: found when errors are asked for
+
+    EstimatorPlan() = default;
+    EstimatorPlan(EstimatorSpec spec) : general(std::move(spec)) {}  // NOLINT: one for all is the usual plan
+
+    [[nodiscard]] const EstimatorSpec& of(const std::string& property) const;
+    [[nodiscard]] std::string to_string() const;
+};
+
+/// Of an empty text the default: natural neighbour for all. Throws UsageError as parse_estimator does, also for traits
+/// or a calibration that no samples can have.
+EstimatorPlan parse_estimator_plan(const std::string& text);
+
+}  // namespace terratet

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "io/lower_case.hpp"
 #include "io/read_table.hpp"
 #include "tess/error.hpp"
 
@@ -18,12 +19,6 @@ constexpr std::array<const char*, 11> meaning_names{"id",    "x",       "y",   "
 constexpr std::array<std::string_view, 18> unit_words{"m",     "ft",     "feet", "foot", "metre",  "metres",
                                                       "meter", "meters", "km",   "deg",  "degree", "degrees",
                                                       "dd",    "masl",   "mbgl", "msl",  "usft",   "amsl"};
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 /// Without a trailing bracket: "Easting [m]", "Cu (%)".
 std::string_view without_bracket(std::string_view header) {
@@ -142,7 +137,8 @@ std::string normal_header(const std::string& header) {
 }
 
 int column_named(const Table& table, const std::string& name) {
-    const auto found = std::ranges::find(table.columns, lower(name), [](const auto& column) { return lower(column); });
+    const auto found =
+        std::ranges::find(table.columns, lower_case(name), [](const auto& column) { return lower_case(column); });
     return found == table.columns.end() ? -1 : static_cast<int>(found - table.columns.begin());
 }
 

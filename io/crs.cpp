@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/lower_case.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -130,11 +131,6 @@ Crs describe(PJ_CONTEXT* context, const Pj& crs) {
     return result;
 }
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 std::string engineering_wkt(const std::string& unit) {
     const std::string axis_unit = ",LENGTHUNIT[" + unit + "]]";
     return "ENGCRS[\"local\",EDATUM[\"local\"],CS[Cartesian,2],AXIS[\"(E)\",east,ORDER[1]" + axis_unit +
@@ -143,7 +139,7 @@ std::string engineering_wkt(const std::string& unit) {
 
 /// What PROJ shall read: our names for local frames spelt out, a PROJ string marked as a CRS.
 std::string completed(const std::string& text) {
-    const std::string key = lower(text);
+    const std::string key = lower_case(text);
     if (key == "local" || key == "local:m") {
         return engineering_wkt("\"metre\",1");
     }
@@ -186,7 +182,7 @@ Crs parse_crs(const std::string& text) {
 Crs crs_from_wkt(const std::string& wkt) {
     const Context context = quiet_context();
     Crs result = describe(context.get(), Pj(wkt.empty() ? nullptr : proj_create(context.get(), wkt.c_str())));
-    return lower(result.name).find("undefined") == std::string::npos ? result : Crs{};
+    return lower_case(result.name).find("undefined") == std::string::npos ? result : Crs{};
 }
 
 Crs utm_zone(double longitude_deg, double latitude_deg) {

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/lower_case.hpp"
 #include "io/model_schema.hpp"
 #include "tess/error.hpp"
 
@@ -25,20 +26,19 @@ constexpr std::array layers{schema::samples, schema::boreholes, schema::surfaces
                             schema::meta,    schema::journal,   schema::changes};
 
 bool is_layer(const std::string& name) {
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const char* layer) { return schema::ascii_lower(name) == layer; });
+    return std::any_of(layers.begin(), layers.end(), [&](const char* layer) { return lower_case(name) == layer; });
 }
 
 /// What a program that reads the model reads.
 bool is_protected(const std::string& name) {
-    return is_layer(name) || schema::ascii_lower(name).starts_with("gpkg_");
+    return is_layer(name) || lower_case(name).starts_with("gpkg_");
 }
 
 /// Tables whose triggers run when a model is written.
 bool is_written(const std::string& table) {
     static const std::set<std::string> own = {"gpkg_contents", "gpkg_geometry_columns", "gpkg_spatial_ref_sys",
                                               "gpkg_ogr_contents", "gpkg_extensions"};
-    return is_layer(table) || own.contains(schema::ascii_lower(table));
+    return is_layer(table) || own.contains(lower_case(table));
 }
 
 struct Statement {
@@ -190,9 +190,9 @@ std::vector<Word> words_of(const std::string& sql) {
 /// their texts differ between versions: they name nothing but the layer's R-tree and gpkg_ogr_contents, and know no
 /// SELECT.
 bool is_own_trigger(const std::string& name, const std::string& layer, const std::string& sql) {
-    const std::string tree = "rtree_" + schema::ascii_lower(layer) + "_geom";
-    const std::string count_end = "_feature_count_" + schema::ascii_lower(layer);
-    const std::string named = schema::ascii_lower(name);
+    const std::string tree = "rtree_" + lower_case(layer) + "_geom";
+    const std::string count_end = "_feature_count_" + lower_case(layer);
+    const std::string named = lower_case(name);
     if (named != "trigger_insert" + count_end && named != "trigger_delete" + count_end &&
         !named.starts_with(tree + "_")) {
         return false;
@@ -209,9 +209,8 @@ bool is_own_trigger(const std::string& name, const std::string& layer, const std
         "for",      "each",     "row",     "new",        "old",           "in"};
     const auto words = words_of(sql);
     return std::all_of(words.begin(), words.end(), [&](const Word& word) {
-        const std::string text = schema::ascii_lower(word.text);
-        return word.quote == 1 || known.contains(text) || text == tree || text == schema::ascii_lower(layer) ||
-               text == named;
+        const std::string text = lower_case(word.text);
+        return word.quote == 1 || known.contains(text) || text == tree || text == lower_case(layer) || text == named;
     });
 }
 
@@ -269,16 +268,15 @@ void Guard::check_objects() {
             if (type != "table" || objects.integer(3) <= 0) {
                 refuse("`" + name + "` must be a table; it is a " + (type == "table" ? "virtual table" : type));
             }
-            found_.insert(schema::ascii_lower(name));
+            found_.insert(lower_case(name));
         }
     }
 }
 
 void Guard::check_index(const std::string& name, const std::string& layer, const std::string& sql) {
     const auto words = words_of(sql);
-    bool plain = std::none_of(words.begin(), words.end(), [](const Word& word) {
-        return word.quote == 0 && schema::ascii_lower(word.text) == "where";
-    });
+    bool plain = std::none_of(words.begin(), words.end(),
+                              [](const Word& word) { return word.quote == 0 && lower_case(word.text) == "where"; });
     const Statement columns = database_.prepare("PRAGMA index_xinfo(" + quoted(name) + ")");
     while (database_.step(columns)) {
         plain = plain && columns.integer(1) >= -1;  // −1: the row's number; −2: an expression
@@ -291,7 +289,7 @@ void Guard::check_index(const std::string& name, const std::string& layer, const
 /// What typeof() may say of a column's cells; empty for types that no column of a model has.
 std::string cell_types(const std::string& declared) {
     static const std::set<std::string> geometries = {"point", "linestring", "multipolygon", "geometry", "blob"};
-    const std::string type = schema::ascii_lower(declared);
+    const std::string type = lower_case(declared);
     if (type == "real" || type == "double" || type == "float") {
         return "('real', 'integer', 'null')";
     }
@@ -311,8 +309,8 @@ void Guard::check_columns(const std::string& layer) {
         if (columns.integer(6) != 0) {
             refuse("column `" + name + "` of layer `" + layer + "` is generated");
         }
-        if (schema::ascii_lower(name) == "fid") {
-            numbered = columns.integer(5) == 1 && schema::ascii_lower(declared) == "integer";
+        if (lower_case(name) == "fid") {
+            numbered = columns.integer(5) == 1 && lower_case(declared) == "integer";
         } else if (const std::string types = cell_types(declared); !types.empty()) {
             cells_.push_back({name, "typeof(" + quoted(name) + ") NOT IN " + types});
         }
@@ -366,7 +364,7 @@ bool holds_model(const std::string& path) {
     Database database(path);
     const Statement names = database.prepare("SELECT name FROM sqlite_master WHERE type IN ('table', 'view')");
     while (database.step(names)) {
-        if (schema::ascii_lower(names.text(0)) == schema::meta) {
+        if (lower_case(names.text(0)) == schema::meta) {
             return true;
         }
     }

@@ -10,6 +10,7 @@
 
 #include "interp/estimator_plan.hpp"
 #include "io/crs.hpp"
+#include "io/lower_case.hpp"
 #include "io/model_schema.hpp"
 #include "io/storable.hpp"
 #include "tess/error.hpp"
@@ -113,7 +114,7 @@ void Ranges::properties(const std::vector<std::string>& columns, const std::vect
     for (const auto* list : {&columns, &censored_columns}) {
         for (const std::string& column : *list) {
             const bool none = list == &censored_columns && column.empty();
-            if (!none && (column.empty() || !taken.insert(schema::ascii_lower(column)).second)) {
+            if (!none && (column.empty() || !taken.insert(lower_case(column)).second)) {
                 fail("properties", "the column \"" + column + "\" has another meaning, or occurs twice");
             }
         }

@@ -29,9 +29,6 @@ inline constexpr const char* changes = "terratet_changes";
 /// Column names that databases and the layers know already, in lower case.
 const std::set<std::string>& reserved_columns();
 
-/// Databases do not tell A from a in names; of other letters they do.
-std::string ascii_lower(std::string text);
-
 /// Column names of properties: the property's name where a database takes it as it is, else made fit and unique. The
 /// mapping is stored, so any name survives.
 std::vector<std::string> property_columns(const std::vector<Property>& properties);

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "io/lower_case.hpp"
 #include "io/text_lines.hpp"
 #include "tess/error.hpp"
 
@@ -18,16 +19,10 @@ namespace terratet {
 
 namespace {
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
-
 bool is_null_word(const std::string& text) {
     static constexpr std::array<std::string_view, 9> words{"",     "na",     "n/a",  "#n/a", "nan",
                                                            "null", "(null)", "none", "-"};
-    return std::ranges::find(words, lower(text)) != words.end();
+    return std::ranges::find(words, lower_case(text)) != words.end();
 }
 
 /// Numbers that stand for "no value" in tables of the trade.
@@ -56,7 +51,7 @@ std::pair<std::string, std::string> split_unit(const std::string& header) {
 
 /// A column that a spreadsheet or a library named for want of a name: a running number more often than a measurement.
 bool is_unnamed(const std::string& header) {
-    const std::string name = lower(header);
+    const std::string name = lower_case(header);
     const bool generated = name.starts_with("unnamed: ") || name.starts_with("field");
     return generated && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
 }
@@ -97,7 +92,7 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         const auto numbers = std::ranges::count_if(table.cells[column], is_number);
         const std::string& name = table.columns[column];
         const bool repeated = std::ranges::any_of(
-            result, [&](const Choice& choice) { return lower(choice.property.name) == lower(name); });
+            result, [&](const Choice& choice) { return lower_case(choice.property.name) == lower_case(name); });
         if (numbers == 0) {
             continue;
         }
@@ -123,8 +118,8 @@ std::vector<Choice> wanted_columns(const Table& table, const std::vector<Propert
     std::vector<Choice> result;
     for (const Property& property : wanted) {
         const auto named = [&](const auto& form) {
-            return std::ranges::find(table.columns, lower(property.name),
-                                     [&](const std::string& header) { return lower(form(header)); });
+            return std::ranges::find(table.columns, lower_case(property.name),
+                                     [&](const std::string& header) { return lower_case(form(header)); });
         };
         auto found = named([](const std::string& header) { return header; });
         if (found == table.columns.end()) {
@@ -236,8 +231,8 @@ std::vector<double> class_values(const Table& table, const Choice& choice, std::
 PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
     for (const std::string& text : wanted) {
         Property property = parse_property(to_utf8(text));
-        if (std::ranges::any_of(wanted_,
-                                [&](const Property& other) { return lower(other.name) == lower(property.name); })) {
+        if (std::ranges::any_of(
+                wanted_, [&](const Property& other) { return lower_case(other.name) == lower_case(property.name); })) {
             throw UsageError("property '" + property.name + "' is asked for twice; name it once, with all that it is");
         }
         wanted_.push_back(std::move(property));
@@ -245,8 +240,8 @@ PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
 }
 
 std::size_t PropertyCatalogue::index_of(const Property& property) {
-    const auto found =
-        std::ranges::find(properties_, lower(property.name), [](const Property& known) { return lower(known.name); });
+    const auto found = std::ranges::find(properties_, lower_case(property.name),
+                                         [](const Property& known) { return lower_case(known.name); });
     if (found == properties_.end()) {
         properties_.push_back(property);
         return properties_.size() - 1;
@@ -284,8 +279,9 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
 
 std::vector<Property> PropertyCatalogue::finish(Samples& samples) {
     for (const Property& property : wanted_) {
-        if (std::ranges::none_of(properties_,
-                                 [&](const Property& known) { return lower(known.name) == lower(property.name); })) {
+        if (std::ranges::none_of(properties_, [&](const Property& known) {
+                return lower_case(known.name) == lower_case(property.name);
+            })) {
             throw UsageError(fmt::format("--property {}: no table has such a column; columns: {}", property.name,
                                          fmt::join(seen_columns_, ", ")));
         }

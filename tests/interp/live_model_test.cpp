@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/live_model.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+#include <thread>
+
+#include "tess/error.hpp"
+#include "tests/tess/worlds.hpp"
+
+using namespace terratet;
+
+namespace {
+
+testing::World faulted_world() {
+    testing::World world = testing::random_world(5);
+    world.site.surfaces = {testing::planar_fault("F", {150, 150, -100}, 0, 90, 500, 400, 15)};
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    world.options.criteria = {};
+    world.options.criteria.l_min = 15;
+    world.options.criteria.l_max = 60;
+    return world;
+}
+
+std::vector<ValueQuery> places() {
+    std::vector<ValueQuery> queries;
+    for (int i = 0; i < 50; ++i) {
+        queries.push_back({{6.0 * i + 1, 290 - 5.0 * i, -4.0 * i - 1}});
+    }
+    return queries;
+}
+
+/// NaN equals itself here.
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::ranges::equal(a, b, [](double x, double y) { return x == y || (x != x && y != y); });
+}
+
+bool same_values(const ModelSnapshot& a, const ModelSnapshot& b) {
+    const auto of_a = a.estimator().values(places());
+    const auto of_b = b.estimator().values(places());
+    return std::ranges::equal(of_a.values, of_b.values, same) && same(of_a.extrapolation, of_b.extrapolation);
+}
+
+}  // namespace
+
+TEST_CASE("A live model that was built and one opened from what was stored are alike") {
+    const testing::World world = faulted_world();
+    const LiveModel built(world.site, world.options);
+    const LiveModel opened(Model(built.model()));
+    const auto a = built.snapshot();
+    const auto b = opened.snapshot();
+    CHECK(a->mesh().points == b->mesh().points);
+    CHECK(a->mesh().cells == b->mesh().cells);
+    CHECK(a->mesh().neighbours == b->mesh().neighbours);
+    CHECK(a->cells().region == b->cells().region);
+    CHECK(a->cells().fault == b->cells().fault);
+    CHECK(a->cells().reason == b->cells().reason);
+    CHECK(a->is_delaunay());
+    CHECK(b->is_delaunay());
+    CHECK(same_values(*a, *b));
+    CHECK(a->collapsed(Collapsing::all).mesh.cells == b->collapsed(Collapsing::all).mesh.cells);
+}
+
+TEST_CASE("A model built without naming an estimator can be opened and asked") {
+    const testing::World world = faulted_world();
+    REQUIRE(world.options.estimator.empty());
+    BuildReport report;
+    const auto bare = build(world.site, world.options, testing::analytic_field(), report);
+    const LiveModel opened{Model(bare->model)};
+    CHECK(same_values(*opened.snapshot(), *LiveModel(world.site, world.options).snapshot()));
+    CHECK(LiveModel(world.site, world.options).model().estimator.starts_with("natural"));
+}
+
+TEST_CASE("What follows from a model is made once, also when many threads ask first") {
+    const testing::World world = faulted_world();
+    const auto state = LiveModel(Model(LiveModel(world.site, world.options).model())).snapshot();
+    std::vector<std::set<const void*>> seen(5);
+    std::mutex mutex;
+    std::vector<std::thread> readers;
+    for (int t = 0; t < 4; ++t) {
+        readers.emplace_back([&] {
+            const std::array<const void*, 5> made{&state->cells(), &state->mesh(), &state->barriers(),
+                                                  &state->estimator(), &state->collapsed(Collapsing::all)};
+            const std::lock_guard lock(mutex);
+            for (std::size_t i = 0; i < made.size(); ++i) {
+                seen[i].insert(made[i]);
+            }
+        });
+    }
+    std::ranges::for_each(readers, &std::thread::join);
+    for (const auto& one : seen) {
+        CHECK(one.size() == 1);
+    }
+    CHECK(state->cells().region.size() == state->mesh().cells.size());
+}
+
+TEST_CASE("A snapshot stays as it is while its model loses a fault, which leaves the model as without it") {
+    const testing::World world = faulted_world();
+    LiveModel live(world.site, world.options);
+    const auto before = live.snapshot();
+    const auto cells = before->mesh().cells;
+    REQUIRE(before->model().faults.size() == 1);
+    CHECK_THROWS_AS(live.remove_surface("G"), UsageError);
+    CHECK(live.snapshot() == before);
+    live.remove_surface("F");
+    CHECK(live.model().faults.empty());
+    CHECK(before->model().faults.size() == 1);
+    CHECK(before->mesh().cells == cells);
+
+    testing::World without = world;
+    without.site.surfaces.clear();
+    const LiveModel expected(without.site, without.options);
+    CHECK(live.snapshot()->mesh().points == expected.snapshot()->mesh().points);
+    CHECK(live.snapshot()->mesh().cells == expected.snapshot()->mesh().cells);
+}
+
+TEST_CASE("Uncertainty becomes properties of the model, and none of a snapshot that somebody holds") {
+    const testing::World world = faulted_world();
+    LiveModel live(world.site, world.options);
+    const auto held = live.snapshot();
+    const std::size_t properties = held->model().properties.size();
+    live.add_uncertainty();
+    CHECK(held->model().properties.size() == properties);
+    CHECK(live.model().properties.size() > properties);
+    CHECK(live.model().vertex_values.values.size() == live.model().properties.size());
+    CHECK(live.model().estimator.find("uncertainty:") != std::string::npos);
+    CHECK(live.snapshot()->mesh().cells == held->mesh().cells);
+
+    LiveModel alone(world.site, world.options);
+    alone.add_uncertainty();
+    CHECK(alone.model().vertex_values.values.size() == live.model().vertex_values.values.size());
+    for (std::size_t p = 0; p < alone.model().vertex_values.values.size(); ++p) {
+        CHECK(same(alone.model().vertex_values.values[p], live.model().vertex_values.values[p]));
+    }
+}
+
+TEST_CASE("A borehole's neighbours are those that an edge leads to") {
+    testing::World world = testing::random_world(5);
+    const LiveModel live(world.site, world.options);
+    const Model& model = live.model();
+    REQUIRE_FALSE(model.boreholes.empty());
+    CHECK_THROWS_AS(live.neighbours_of("none of that name"), UsageError);
+    const auto is_own = [&](std::uint32_t v) {
+        return model.vertices[v].role == Role::sample &&
+               model.samples.borehole[static_cast<std::size_t>(model.vertices[v].owner)] == 0;
+    };
+    std::set<std::uint32_t> expected;
+    for (const auto& cell : live.snapshot()->mesh().cells) {
+        for (const std::uint32_t a : cell) {
+            for (const std::uint32_t b : cell) {
+                if (is_own(a) && !is_own(b)) {
+                    expected.insert(b);
+                }
+            }
+        }
+    }
+    const auto found = live.neighbours_of(model.boreholes.front().id);
+    CHECK(!found.empty());
+    CHECK(std::set(found.begin(), found.end()) == expected);
+    CHECK(std::ranges::is_sorted(found));
+}

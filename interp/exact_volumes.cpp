@@ -92,9 +92,8 @@ void add_cells(const CompactDelaunay& mesh, const Cavity& cavity, const std::vec
 
 /// What each of the cavity's vertices loses to the query, from the sites alone.
 template <typename Number>
-std::vector<Number> stolen(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                           NaturalNeighbourOptions::Weighting weighting) {
-    const bool sibson = weighting == NaturalNeighbourOptions::Weighting::sibson;
+std::vector<Number> stolen(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, Weighting weighting) {
+    const bool sibson = weighting == Weighting::sibson;
     std::vector<Number> volumes(cavity.vertices.size(), Number(0));
     std::vector<Vector<Number>> points;
     for (const std::int32_t v : cavity.vertices) {
@@ -168,30 +167,29 @@ void barycentric_shares(const CompactDelaunay& mesh, const Cavity& cavity, const
 
 }  // namespace
 
-bool long_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                 NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+bool long_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, Weighting weighting,
+                 std::vector<double>& shares) {
     const auto& home = mesh.cells()[static_cast<std::size_t>(cavity.home)];
     const double radius = distance(home.center, mesh.points()[static_cast<std::size_t>(home.vertex[0])]);
     return shares_of(mesh, cavity, q, stolen<long double>(mesh, cavity, q, weighting), long_tolerance,
                      long_tolerance * radius, shares);
 }
 
-bool wide_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                 NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+bool wide_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, Weighting weighting,
+                 std::vector<double>& shares) {
     return shares_of(mesh, cavity, q, stolen<Wide>(mesh, cavity, q, weighting), tolerance,
                      tolerance * distance_to_nearest(cavity), shares);
 }
 
-bool precise_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                    NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares) {
+bool precise_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, Weighting weighting,
+                    std::vector<double>& shares) {
     const double error = tolerance * distance_to_nearest(cavity);
     return shares_of(mesh, cavity, q, stolen<Precise<512>>(mesh, cavity, q, weighting), tolerance, error, shares) ||
            shares_of(mesh, cavity, q, stolen<Precise<4096>>(mesh, cavity, q, weighting), tolerance, error, shares);
 }
 
-SharesFrom fallback_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q,
-                           NaturalNeighbourOptions::Weighting weighting, std::vector<double>& shares,
-                           const FallbackLimits& limits) {
+SharesFrom fallback_shares(const CompactDelaunay& mesh, const Cavity& cavity, const Vec3& q, Weighting weighting,
+                           std::vector<double>& shares, const FallbackLimits& limits) {
     const std::size_t size = zone_size(mesh, cavity);
     if (size <= limits.long_doubles && long_shares(mesh, cavity, q, weighting, shares)) {
         return SharesFrom::long_doubles;
@@ -202,8 +200,7 @@ SharesFrom fallback_shares(const CompactDelaunay& mesh, const Cavity& cavity, co
     if (size <= limits.precise && precise_shares(mesh, cavity, q, weighting, shares)) {
         return SharesFrom::precise;
     }
-    if (cavity.facets.size() <= limits.laplace &&
-        wide_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::laplace, shares)) {
+    if (cavity.facets.size() <= limits.laplace && wide_shares(mesh, cavity, q, Weighting::laplace, shares)) {
         return SharesFrom::laplace;
     }
     barycentric_shares(mesh, cavity, q, shares);

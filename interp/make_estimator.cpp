@@ -34,8 +34,7 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector
         return std::make_unique<LinearInCells>(std::move(sites), faults, anisotropy_of(spec));
     }
     NaturalNeighbourOptions options;
-    options.weighting =
-        name == "laplace" ? NaturalNeighbourOptions::Weighting::laplace : NaturalNeighbourOptions::Weighting::sibson;
+    options.weighting = name == "laplace" ? Weighting::laplace : Weighting::sibson;
     options.smooth = spec.options.contains("smooth");
     options.anisotropy = anisotropy_of(spec);
     return std::make_unique<NaturalNeighbour>(std::move(sites), faults, options);

@@ -81,10 +81,10 @@ void add_boundary(const CompactDelaunay& mesh, const Vec3& q, void (FacetBlock::
     }
 }
 
-bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, NaturalNeighbourOptions::Weighting weighting,
+bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, Weighting weighting,
                        Workspace& work) {
     work.shares.assign(work.cavity.points.size(), 0.0);
-    if (weighting == NaturalNeighbourOptions::Weighting::sibson) {
+    if (weighting == Weighting::sibson) {
         add_cells(mesh, work);
         add_boundary(mesh, q, &FacetBlock::sibson, work);
     } else {

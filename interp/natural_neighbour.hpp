@@ -36,11 +36,11 @@
 
 #include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
+#include "interp/weighting.hpp"
 
 namespace terratet {
 
 struct NaturalNeighbourOptions {
-    enum class Weighting { sibson, laplace };
     Weighting weighting = Weighting::sibson;
     bool smooth = false;  ///< \pre only with Sibson's
     Anisotropy anisotropy{};

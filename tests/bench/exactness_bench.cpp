@@ -90,7 +90,7 @@ void measure(const char* name, const std::vector<Vec3>& sites, std::size_t count
         if (i % every != 0) {
             continue;
         }
-        if (!precise_shares(mesh, cavity, q, NaturalNeighbourOptions::Weighting::sibson, exact)) {
+        if (!precise_shares(mesh, cavity, q, Weighting::sibson, exact)) {
             std::abort();
         }
         ++compared;

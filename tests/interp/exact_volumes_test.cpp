@@ -19,7 +19,7 @@ using namespace terratet::testing;
 
 namespace {
 
-constexpr auto sibson = NaturalNeighbourOptions::Weighting::sibson;
+constexpr auto sibson = Weighting::sibson;
 
 struct Shape {
     std::string name;

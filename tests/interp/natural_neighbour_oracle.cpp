@@ -162,7 +162,7 @@ SiteWeights fallback_weights(const std::vector<Vec3>& sites, const Vec3& q, Fall
     Cavity cavity;
     cavity.find(mesh, q, mesh.locate(q, mesh.start_near(q)));
     std::vector<double> shares;
-    constexpr auto sibson = NaturalNeighbourOptions::Weighting::sibson;
+    constexpr auto sibson = Weighting::sibson;
     const auto way = which == Fallback::long_doubles ? long_shares
                      : which == Fallback::wide       ? wide_shares
                                                      : precise_shares;

@@ -11,6 +11,8 @@
 
 #include "interp/estimator_spec.hpp"
 #include "interp/model_estimator.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
 
 namespace terratet {
 

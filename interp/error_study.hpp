@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "interp/calibration.hpp"
+#include "interp/estimator.hpp"
 #include "interp/local_error.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 

@@ -5,8 +5,11 @@
 /// Inverse distance weighting (Shepard 1968) over the nearest visible sites: wᵢ ∝ 1 / dᵢ^power. On a site, that site
 /// alone. The extrapolation is 0 everywhere: the method knows no inside. O(max_points log n).
 
+#include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 #include "interp/site_index.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

@@ -18,6 +18,8 @@
 #include "interp/estimator.hpp"
 #include "interp/kriging_system.hpp"
 #include "interp/site_index.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "interp/calibration.hpp"
+#include "interp/estimator.hpp"
 #include "interp/estimator_plan.hpp"
 #include "interp/linear_precision.hpp"
 #include "interp/local_error.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
 #include "tess/samples.hpp"
 
 namespace terratet {

@@ -9,8 +9,11 @@
 /// Ghosts, faults, slopes and fallbacks as in natural_neighbour.hpp; so there are at most four terms, and where
 /// all four samples are hidden the nearest visible one counts. About 1 µs a query; ~750 bytes a site.
 
+#include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 #include "interp/site_mesh.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

@@ -12,6 +12,7 @@
 
 #include "interp/model_snapshot.hpp"
 #include "tess/build.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "interp/estimator.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 

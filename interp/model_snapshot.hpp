@@ -14,6 +14,7 @@
 #include "interp/model_estimator.hpp"
 #include "tess/build.hpp"
 #include "tess/collapse.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 

@@ -6,6 +6,8 @@
 
 #include "interp/estimator_plan.hpp"
 #include "interp/model_estimator.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

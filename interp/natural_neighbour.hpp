@@ -37,6 +37,8 @@
 #include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 #include "interp/weighting.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

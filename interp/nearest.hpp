@@ -4,8 +4,11 @@
 /// \file
 /// The value of the nearest visible site; of several at the same distance, the one first by coordinates. O(log n).
 
+#include "interp/anisotropy.hpp"
 #include "interp/estimator.hpp"
 #include "interp/site_index.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet {
 

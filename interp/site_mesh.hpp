@@ -15,9 +15,11 @@
 #include <span>
 #include <vector>
 
+#include "interp/anisotropy.hpp"
 #include "interp/compact_delaunay.hpp"
 #include "interp/estimator.hpp"
 #include "interp/site_index.hpp"
+#include "tess/fault_proximity.hpp"
 
 namespace terratet {
 

@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "interp/anisotropy.hpp"
 #include "interp/experimental_variogram.hpp"
 #include "interp/variogram.hpp"
 #include "tess/property.hpp"

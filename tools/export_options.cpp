@@ -57,7 +57,10 @@ FaultGap fault_gap(const ExportArguments& a) {
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {{"Outputs (by extension: .vtu, .glb, .gltf, .vdb, .csv)",
              {
-                 {{"of"}, "FORMAT", "instead of the extension's: VTU, GLTF, VDB, CSV", &a.format},
+                 {{"of"},
+                  "FORMAT",
+                  "instead of the extension's: VTU, GLTF, VDB, CSV; with it the output may be -, standard output",
+                  &a.format},
                  {{"tr", "voxel-size"},
                   "LENGTH[,LENGTH,LENGTH]",
                   "of voxels; by default about a 128th of the longest side",

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -78,6 +80,46 @@ std::time_t now() {
     return std::time(nullptr);
 }
 
+constexpr const char* standard_output = "-";
+
+/// A folder of its own among the temporary ones, gone with all in it at the end.
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "terratet-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw Error(fmt::format("cannot make a temporary folder in {}", fs::temp_directory_path().string()));
+        }
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+/// By way of a file, so that nothing goes out unless all of it is there.
+OutputRecord export_to_standard_output(const ModelSnapshot& model, const ExportOptions& options) {
+    const ScratchFolder scratch;
+    std::string extension = options.format;
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    OutputRecord record = export_model(model, (scratch.path() / ("output." + extension)).string(), options);
+    std::ifstream file(record.path, std::ios::binary);
+    std::vector<char> block(1 << 20);
+    while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
+        write_to_standard_output({block.data(), static_cast<std::size_t>(file.gcount())});
+    }
+    record.path = standard_output;
+    return record;
+}
+
 }  // namespace
 
 bool names_model(const std::string& path) {
@@ -91,19 +133,25 @@ void check_outputs(const std::vector<std::string>& paths, const std::vector<std:
             output_format(path, arguments.format);
         }
     }
+    if (run.report == standard_output && std::ranges::find(paths, standard_output) != paths.end()) {
+        throw UsageError("-: standard output cannot take an output and the report");
+    }
     check_places(paths, inputs, run);
 }
 
 void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run) {
-    if (!run.report.empty() && run.report != "-") {
+    if (!run.report.empty() && run.report != standard_output) {
         paths.push_back(run.report);
     }
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const auto& path = paths[i];
         for (std::size_t j = 0; j < i; ++j) {
-            if (same_file(path, paths[j])) {
+            if (path == paths[j] || same_file(path, paths[j])) {
                 throw UsageError(fmt::format("{}: given twice as an output", path));
             }
+        }
+        if (path == standard_output) {
+            continue;
         }
         const auto is_input = [&](const std::string& input) { return same_file(path, parse_source(input).path); };
         if (std::any_of(inputs.begin(), inputs.end(), is_input) ||
@@ -131,7 +179,8 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
             written.outputs.push_back({path, no_file ? 0 : bytes});
             return;
         }
-        written.outputs.push_back(export_model(model, path, options));
+        written.outputs.push_back(path == standard_output ? export_to_standard_output(model, options)
+                                                          : export_model(model, path, options));
         const auto which = collapsing(model.model(), output_format(path, arguments.format), options.fault_gap);
         if (which && (which == Collapsing::all || !written.collapse)) {
             written.collapse = model.collapsed(*which).report;

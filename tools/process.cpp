@@ -15,11 +15,14 @@ namespace terratet::tools {
 
 int print(const std::string& data) {
     const bool seen = isatty(STDOUT_FILENO) == 1;
-    const std::string text = seen ? printable(data, true) : data;
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    write_to_standard_output(seen ? printable(data, true) : data);
+    return exit_done;
+}
+
+void write_to_standard_output(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
         throw Error("standard output cannot be written to");
     }
-    return exit_done;
 }
 
 struct ThreadLimit::Control {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "tools/exit_code.hpp"
 
@@ -16,6 +17,9 @@ namespace terratet::tools {
 /// Writes data to standard output and returns exit_done. Throws Error when it cannot. Where that is a terminal, what
 /// would change it is shown instead (printable.hpp).
 int print(const std::string& data);
+
+/// Bytes as they are. Throws Error when they cannot be written.
+void write_to_standard_output(std::string_view bytes);
 
 inline constexpr const char* out_of_memory = "out of memory; a larger --lmin or --voxel-size needs less";
 

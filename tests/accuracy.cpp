@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
 #include "tess/mesh_walk.hpp"
+#include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
 
 namespace terratet::testing {

@@ -8,6 +8,8 @@
 #include <memory>
 
 #include "interp/model_source.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 #include "tests/accuracy.hpp"
 
 namespace terratet::testing {

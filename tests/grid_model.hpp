@@ -12,6 +12,7 @@
 #include "kuhn_mesh.hpp"
 #include "tess/cells.hpp"
 #include "tess/model.hpp"
+#include "tess/property.hpp"
 
 namespace terratet::testing {
 

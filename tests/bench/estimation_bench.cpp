@@ -18,6 +18,7 @@
 #include "interp/estimator_spec.hpp"
 #include "interp/make_estimator.hpp"
 #include "sites.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -13,10 +13,12 @@
 #include <numeric>
 
 #include "interp/cavity.hpp"
+#include "interp/estimator.hpp"
 #include "interp/exact_volumes.hpp"
 #include "interp/morton.hpp"
 #include "interp/natural_neighbour.hpp"
 #include "sites.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 

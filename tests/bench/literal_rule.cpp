@@ -23,6 +23,7 @@
 
 #include "refinement_sites.hpp"
 #include "tess/density_edition.hpp"
+#include "tess/fault_proximity.hpp"
 
 using namespace terratet;
 

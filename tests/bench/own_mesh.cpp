@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
+#include "tess/value_source.hpp"
 #include "timing.hpp"
 
 namespace terratet::bench {

@@ -7,6 +7,7 @@
 
 #include "io/read_site.hpp"
 #include "tess/density_edition.hpp"
+#include "tess/fault_proximity.hpp"
 #include "tests/support.hpp"
 #include "tests/tess/worlds.hpp"
 

@@ -14,6 +14,8 @@
 
 #include "own_mesh.hpp"
 #include "refinement_sites.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::bench;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support.hpp"
+#include "tess/property.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

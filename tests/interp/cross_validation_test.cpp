@@ -11,6 +11,7 @@
 
 #include "estimation.hpp"
 #include "sites.hpp"
+#include "tess/property.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -13,6 +13,8 @@
 
 #include "interp/estimator.hpp"
 #include "support.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 namespace terratet::testing {
 

@@ -14,7 +14,10 @@
 #include "interp/model_source.hpp"
 #include "interp/resample.hpp"
 #include "tess/build.hpp"
+#include "tess/fault_proximity.hpp"
 #include "tess/own_side.hpp"
+#include "tess/property.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -11,6 +11,8 @@
 
 #include "sites.hpp"
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -12,6 +12,7 @@
 #include "interp/estimator_spec.hpp"
 #include "interp/make_estimator.hpp"
 #include "interp/morton.hpp"
+#include "interp/natural_neighbour.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

@@ -11,6 +11,8 @@
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

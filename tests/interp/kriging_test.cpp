@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "estimation.hpp"
+#include "interp/estimator.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

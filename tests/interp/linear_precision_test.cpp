@@ -11,11 +11,14 @@
 #include <set>
 
 #include "estimation.hpp"
+#include "interp/estimator.hpp"
 #include "interp/estimator_spec.hpp"
 #include "interp/extrapolation.hpp"
 #include "interp/make_estimator.hpp"
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

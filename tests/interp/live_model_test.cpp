@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tess/error.hpp"
+#include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;

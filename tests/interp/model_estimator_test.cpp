@@ -14,6 +14,8 @@
 #include "interp/folds.hpp"
 #include "interp/uncertainty.hpp"
 #include "sites.hpp"
+#include "tess/property.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -11,6 +11,9 @@
 
 #include "estimation.hpp"
 #include "sites.hpp"
+#include "tess/fault_proximity.hpp"
+#include "tess/property.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -14,6 +14,7 @@
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

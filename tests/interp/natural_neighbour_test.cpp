@@ -11,6 +11,7 @@
 #include "estimation.hpp"
 #include "interp/cavity.hpp"
 #include "interp/compact_delaunay.hpp"
+#include "interp/estimator.hpp"
 #include "interp/morton.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"

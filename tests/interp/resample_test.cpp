@@ -14,6 +14,7 @@
 #include "kuhn_mesh.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
+#include "tess/fault_proximity.hpp"
 
 using namespace terratet;
 using terratet::testing::kuhn_mesh;

@@ -6,6 +6,7 @@
 
 #include "estimation.hpp"
 #include "interp/cavity.hpp"
+#include "interp/estimator.hpp"
 #include "interp/extrapolation.hpp"
 #include "interp/linear_precision.hpp"
 #include "regular_sites.hpp"

@@ -9,10 +9,13 @@
 #include <functional>
 
 #include "estimation.hpp"
+#include "interp/estimator.hpp"
 #include "interp/estimator_plan.hpp"
 #include "interp/local_error.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"
+#include "tess/property.hpp"
+#include "tess/value_source.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

@@ -15,7 +15,6 @@
 #include "tess/error.hpp"
 #include "tess/fault.hpp"
 #include "tess/fault_blocks.hpp"
-#include "tess/long_steps.hpp"
 #include "tess/refine.hpp"
 #include "tess/vertex_demand.hpp"
 
@@ -409,7 +408,7 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
     Tessellation& tessellation = built->tessellation;
     {
         const Stopwatch watch(report.seconds["refine"]);
-        insert_vertices(tessellation, model.vertices, [&] { report_progress(progress, "tessellate", 0); });
+        tessellation.insert(model.vertices, [&] { report_progress(progress, "tessellate", 0); });
         report.initial = initial_statistics(*built);
         if (options.refine_enabled) {
             RefineOptions refine_options = options.refine;

@@ -10,7 +10,7 @@
 #include <CGAL/spatial_sort.h>
 
 #include "tess/delaunay.hpp"
-#include "tess/long_steps.hpp"
+#include "tess/poll.hpp"
 
 namespace terratet::delaunay {
 

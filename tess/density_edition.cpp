@@ -7,8 +7,8 @@
 
 #include "tess/bulk_insertion.hpp"
 #include "tess/delaunay.hpp"
-#include "tess/long_steps.hpp"
 #include "tess/point_grid.hpp"
+#include "tess/poll.hpp"
 
 namespace terratet {
 
@@ -125,11 +125,6 @@ class DynamicDeletion {
 };
 
 }  // namespace
-
-DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
-                           const FaultProximity& faults) {
-    return edit_density(samples, resolution, mode, faults, {});
-}
 
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
                            const FaultProximity& faults, const Poll& poll) {

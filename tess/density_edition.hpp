@@ -6,6 +6,7 @@
 
 #include "tess/density.hpp"
 #include "tess/fault_proximity.hpp"
+#include "tess/progress.hpp"
 #include "tess/resolution.hpp"
 #include "tess/samples.hpp"
 
@@ -14,7 +15,7 @@ namespace terratet {
 /// D1 with different l_min at two samples: the smaller one. D2: that of the dropped sample.
 /// \pre samples are merged (no coincident positions) and in canonical order. O(n) for canonical, O(n log n) for paper.
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
-                           const FaultProximity& faults);
+                           const FaultProximity& faults, const Poll& poll = {});
 
 /// The same with one l_min everywhere.
 DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults);

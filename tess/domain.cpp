@@ -5,15 +5,10 @@
 #include <algorithm>
 
 #include "tess/grid_steps.hpp"
-#include "tess/long_steps.hpp"
 #include "tess/point_grid.hpp"
+#include "tess/poll.hpp"
 
 namespace terratet {
-
-std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
-                            const Frame& frame) {
-    return face_grid(hull, l_min, l_max, obstacles, frame, {});
-}
 
 std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
                             const Frame& frame, const Poll& poll) {

@@ -12,6 +12,7 @@
 #include "tess/frame.hpp"
 #include "tess/geometry.hpp"
 #include "tess/outline.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -27,6 +28,6 @@ struct Domain {
 /// below l_min; the corners always, other points unless nearer than l_min to one of `obstacles`. Each once, sorted,
 /// snapped.
 std::vector<Vec3> face_grid(const Box3& hull, double l_min, double l_max, std::span<const Vec3> obstacles,
-                            const Frame& frame);
+                            const Frame& frame, const Poll& poll = {});
 
 }  // namespace terratet

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/vertex_demand.hpp"
+#include "tess/beyond_limit.hpp"
 
 namespace terratet {
 

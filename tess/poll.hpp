@@ -2,19 +2,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: what lets a long step be stopped that cannot tell how far it is.
+/// Asking whether to go on (Poll, progress.hpp).
 
-#include <functional>
+#include <cstddef>
+
+#include "tess/progress.hpp"
 
 namespace terratet {
-
-/// Asked by such a step at least every 0.2 s; throws Cancelled to stop it. May be empty.
-using Poll = std::function<void()>;
 
 inline void ask(const Poll& poll) {
     if (poll) {
         poll();
     }
 }
+
+/// Asks once in so many small steps. \pre The poll outlives it.
+class PatientPoll {
+  public:
+    explicit PatientPoll(const Poll& poll) : poll_(poll) {}
+    void operator()() {
+        if (++steps_ % 512 == 0) {
+            ask(poll_);
+        }
+    }
+
+  private:
+    const Poll& poll_;
+    std::size_t steps_ = 0;
+};
 
 }  // namespace terratet

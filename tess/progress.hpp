@@ -23,4 +23,8 @@ inline void report_progress(const Progress& progress, std::string_view stage, do
     }
 }
 
+/// What a step takes that cannot tell how far it is: called by it at least every 0.2 s; throws Cancelled to stop it.
+/// May be empty.
+using Poll = std::function<void()>;
+
 }  // namespace terratet

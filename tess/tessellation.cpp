@@ -7,7 +7,7 @@
 
 #include "tess/bulk_insertion.hpp"
 #include "tess/delaunay.hpp"
-#include "tess/long_steps.hpp"
+#include "tess/poll.hpp"
 
 namespace terratet {
 
@@ -52,12 +52,8 @@ Tessellation::~Tessellation() = default;
 Tessellation::Tessellation(Tessellation&&) noexcept = default;
 Tessellation& Tessellation::operator=(Tessellation&&) noexcept = default;
 
-void Tessellation::insert(std::span<const Vertex> vertices) {
-    insert_vertices(*this, vertices, {});
-}
-
-void insert_vertices(Tessellation& tessellation, std::span<const Vertex> vertices, const Poll& poll) {
-    delaunay::Core& core = delaunay::core(tessellation);
+void Tessellation::insert(std::span<const Vertex> vertices, const Poll& poll) {
+    delaunay::Core& core = *core_;
     PatientPoll go_on(poll);
     std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
     points.reserve(vertices.size());

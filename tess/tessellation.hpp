@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "tess/progress.hpp"
 #include "tess/tet_mesh.hpp"
 
 namespace terratet {
@@ -37,7 +38,7 @@ class Tessellation {
     /// Adds vertices in bulk, in spatially sorted order; n log n in practice, ~250 k/s on one core.
     /// \pre Ids ascend, all above those present; positions are finite and distinct from each other and from those
     /// present.
-    void insert(std::span<const Vertex> vertices);
+    void insert(std::span<const Vertex> vertices, const Poll& poll = {});
 
     /// In ascending id.
     [[nodiscard]] std::span<const Vertex> vertices() const;

@@ -9,6 +9,7 @@
 
 #include "tess/box_clip.hpp"
 #include "tess/grid_steps.hpp"
+#include "tess/rounding.hpp"
 
 namespace terratet {
 
@@ -69,12 +70,6 @@ double demand_of_seeds(const Model& model, const FaultOptions& faults) {
     return 2 * area / (spacing * spacing) / 2;  // half of it may overlap, be refused or lie closer to its neighbours
 }
 
-/// Short enough to type, and no smaller.
-double rounded_up(double value) {
-    const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
-    return digit * std::ceil(value / digit);
-}
-
 }  // namespace
 
 double VertexDemand::total() const {
@@ -109,18 +104,6 @@ void require_affordable(const Model& model, const BuildOptions& options) {
     }
     text << " may fit, or a smaller --extent";
     throw UsageError(text.str());
-}
-
-UsageError refinement_beyond(std::uint64_t max_vertices, std::size_t others, double l_min, double bound) {
-    const auto limit = static_cast<double>(max_vertices);
-    const double room = std::max(limit / 2, limit - static_cast<double>(others));
-    std::ostringstream text;
-    text.precision(3);
-    text << "the criteria ask for more than --max-vertices " << max_vertices
-         << " (by default what fits into memory), as refinement shows: a longer --lmax or an --lmin of "
-         << rounded_up(l_min * std::cbrt(std::max(1.0, bound / room)))
-         << " (with an --lmax of at least four times that) may fit, or a smaller --extent";
-    return UsageError(text.str());
 }
 
 }  // namespace terratet

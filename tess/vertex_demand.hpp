@@ -5,7 +5,6 @@
 /// How many vertices the criteria ask for, known before any is made. Private to this floor.
 
 #include "tess/build_options.hpp"
-#include "tess/error.hpp"
 
 namespace terratet {
 
@@ -23,10 +22,5 @@ VertexDemand vertex_demand(const Model& model, const FaultOptions& faults);
 
 /// Throws UsageError when that is more than options.refine.max_vertices, naming the option to change and a value.
 void require_affordable(const Model& model, const BuildOptions& options);
-
-/// What refinement throws that gets beyond the limit, which nothing showed before.
-/// \param others  vertices before refinement
-/// \param bound   most that it can insert with this l_min (R1)
-UsageError refinement_beyond(std::uint64_t max_vertices, std::size_t others, double l_min, double bound);
 
 }  // namespace terratet

@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "tess/cells.hpp"
+#include "tess/density_edition.hpp"
+#include "tess/domain.hpp"
 #include "tess/error.hpp"
-#include "tess/long_steps.hpp"
+#include "tess/progress.hpp"
 #include "tess/quality.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
@@ -119,9 +121,9 @@ TEST_CASE("Each step of a build that takes long can be stopped: it asks on its w
         CHECK(asked > (mode == DensityMode::paper ? 20 : 10));
     }
     Tessellation tessellation;
-    CHECK_THROWS_AS(insert_vertices(tessellation, vertices, stop), Cancelled);
+    CHECK_THROWS_AS(tessellation.insert(vertices, stop), Cancelled);
     Tessellation whole;
-    insert_vertices(whole, vertices, {});
+    whole.insert(vertices);
     CHECK(whole.cell_count() > 20000);
     CHECK(whole.is_delaunay());
 }

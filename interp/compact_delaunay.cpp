@@ -10,12 +10,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "interp/circumsphere.hpp"
 #include "interp/morton.hpp"
-#include "interp/sphere_tree.hpp"
 
 namespace terratet {
 namespace {
@@ -51,8 +52,9 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q, const Vec3&
 
 }  // namespace
 
-CompactDelaunay::CompactDelaunay(std::span<const Vec3> sites) : points_(sites.begin(), sites.end()) {
+CompactDelaunay::CompactDelaunay(std::span<const Vec3> sites) {
     assert(!sites.empty());
+    points_.assign(sites.begin(), sites.end());
     box_ = bounding_box(sites);
     const double diagonal = box_.diagonal() > 0 ? box_.diagonal() : 1;
     const Vec3 half = ghost_distance * Vec3{diagonal, diagonal, diagonal};
@@ -215,11 +217,6 @@ bool CompactDelaunay::contains(const Cell& cell, const Vec3& q) const {
         }
     }
     return true;
-}
-
-bool CompactDelaunay::in_conflict_exact(const Cell& cell, const Vec3& q) const {
-    const auto p = [&](std::size_t k) { return exact(points_[static_cast<std::size_t>(cell.vertex[k])]); };
-    return CGAL::side_of_oriented_sphere(p(0), p(1), p(2), p(3), exact(q)) == CGAL::ON_POSITIVE_SIDE;
 }
 
 const SphereTree& CompactDelaunay::sphere_tree() const {

@@ -29,7 +29,7 @@ void SphereTree::Range::extend(const Range& other) {
     extend(other.hi);
 }
 
-SphereTree::SphereTree(const CompactDelaunay& mesh) : cells_(mesh.cells().size()) {
+SphereTree::SphereTree(const CompactCells& mesh) : cells_(mesh.cells().size()) {
     const Box3 cube = bounding_box(mesh.points());  // the ghosts'
     origin_ = cube.center();
     reach_ = cube.diagonal() / 2;
@@ -56,12 +56,12 @@ SphereTree::SphereTree(const CompactDelaunay& mesh) : cells_(mesh.cells().size()
     }
 }
 
-SphereTree::Lifted SphereTree::lifted(const CompactDelaunay::Cell& cell) const {
+SphereTree::Lifted SphereTree::lifted(const CompactCells::Cell& cell) const {
     const Vec3 c = cell.center - origin_;
     return {c.x, c.y, c.z, (squared_length(c) - cell.squared_radius) / (2 * reach_)};
 }
 
-void SphereTree::split(const CompactDelaunay& mesh, std::uint32_t begin, std::uint32_t end) {
+void SphereTree::split(const CompactCells& mesh, std::uint32_t begin, std::uint32_t end) {
     const auto here = groups_.size();
     const Range nothing{{infinity, infinity, infinity, infinity}, {-infinity, -infinity, -infinity, -infinity}};
     groups_.push_back({nothing, nothing, begin, end});
@@ -95,8 +95,8 @@ void SphereTree::split(const CompactDelaunay& mesh, std::uint32_t begin, std::ui
     }
 }
 
-void SphereTree::bound(const CompactDelaunay& mesh, Group& leaf) const {
-    const auto include = [&](Range& range, const CompactDelaunay::Cell& cell) {
+void SphereTree::bound(const CompactCells& mesh, Group& leaf) const {
+    const auto include = [&](Range& range, const CompactCells::Cell& cell) {
         if (squared_distance(cell.center, origin_) + cell.squared_radius < far_spheres * reach_ * reach_) {
             range.extend(lifted(cell));
         } else {  // of an uncertain (NaN) or vast sphere too little is known
@@ -117,7 +117,7 @@ void SphereTree::bound(const CompactDelaunay& mesh, Group& leaf) const {
     }
 }
 
-void SphereTree::find(const CompactDelaunay& mesh, const Vec3& q, std::vector<std::uint32_t>& groups,
+void SphereTree::find(const CompactCells& mesh, const Vec3& q, std::vector<std::uint32_t>& groups,
                       std::vector<std::int32_t>& cells) const {
     groups.clear();
     cells.clear();

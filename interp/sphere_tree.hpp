@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "interp/compact_delaunay.hpp"
+#include "interp/compact_cells.hpp"
 
 namespace terratet {
 
@@ -28,11 +28,11 @@ class SphereTree {
     };
 
     /// O(n log n); about as many bytes a cell as the cell itself.
-    explicit SphereTree(const CompactDelaunay& mesh);
+    explicit SphereTree(const CompactCells& mesh);
 
     /// Divides the conflict zone of q into whole groups and single cells. The cells that the latter leave out of the
     /// zone hold none of it. \pre within_reach(q)
-    void find(const CompactDelaunay& mesh, const Vec3& q, std::vector<std::uint32_t>& groups,
+    void find(const CompactCells& mesh, const Vec3& q, std::vector<std::uint32_t>& groups,
               std::vector<std::int32_t>& cells) const;
 
     [[nodiscard]] std::span<const VertexSum> sums(std::uint32_t group) const {
@@ -60,9 +60,9 @@ class SphereTree {
         std::size_t sums_begin = 0, sums_end = 0;
     };
 
-    Lifted lifted(const CompactDelaunay::Cell& cell) const;
-    void split(const CompactDelaunay& mesh, std::uint32_t begin, std::uint32_t end);
-    void bound(const CompactDelaunay& mesh, Group& leaf) const;
+    Lifted lifted(const CompactCells::Cell& cell) const;
+    void split(const CompactCells& mesh, std::uint32_t begin, std::uint32_t end);
+    void bound(const CompactCells& mesh, Group& leaf) const;
 
     Vec3 origin_;
     double reach_ = 0;   ///< of places from the origin: what w is divided by to be compared with c

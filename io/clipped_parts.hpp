@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to clipped_mesh.cpp: what is done to a mesh once it is cut at the extent's planes.
+/// What is done to a mesh once it is cut at the extent's planes.
 
 #include "io/clipped_mesh.hpp"
 

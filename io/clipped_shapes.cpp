@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/clip.hpp"
 #include "io/clipped_parts.hpp"
 #include "tess/quality.hpp"
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/scene.hpp"
+#include "io/clip.hpp"
 #include "tess/model_bounds.hpp"
 
 namespace terratet {

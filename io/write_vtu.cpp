@@ -10,7 +10,7 @@
 #include <optional>
 #include <variant>
 
-#include "io/clipped_mesh.hpp"
+#include "io/clip.hpp"
 #include "io/column_names.hpp"
 #include "io/export.hpp"
 #include "io/role_names.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/clipped_mesh.hpp"
+#include "io/clip.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,6 @@ namespace {
 
 using Tet = std::array<std::uint32_t, 4>;
 enum class Fate : std::uint8_t { dropped, whole, cut };
-
-/// Corners of facet k as seen from outside the cell.
 
 /// One side of the extent; what is inside has a distance ≥ 0.
 struct Plane {

@@ -15,7 +15,7 @@ FLOORS = {
              "refine", "cells", "mending", "collapse", "edit"],
     "interp": ["base", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
     "io": ["base", "read", "model", "write"],
-    "tools": ["options", "report", "commands"],
+    "tools": ["options", "run", "report", "commands"],
 }
 LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE = 450, 4500, 110
 

@@ -41,7 +41,7 @@ class LiveModel {
         return snapshot()->neighbours_of(borehole);
     }
 
-    /// What the estimator knows about its values becomes further properties of the vertices (interp/uncertainty.hpp),
+    /// What the estimator knows about its values becomes further properties of the vertices (interp/plan/uncertainty.hpp),
     /// and the model keeps how far errors go.
     void add_uncertainty();
 

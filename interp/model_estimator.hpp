@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "interp/estimator_plan.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/model.hpp"
 #include "tess/value_source.hpp"
 

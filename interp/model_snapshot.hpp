@@ -14,7 +14,7 @@
 #include "interp/model_estimator.hpp"
 #include "tess/build.hpp"
 #include "tess/collapse.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 
 namespace terratet {
 
@@ -49,7 +49,7 @@ class ModelSnapshot {
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const;
 
-    /// What the estimator knows about its values becomes further properties of the vertices (interp/uncertainty.hpp).
+    /// What the estimator knows about its values becomes further properties of the vertices (interp/plan/uncertainty.hpp).
     /// \pre Nobody else has the snapshot yet.
     void add_uncertainty();
 

@@ -40,7 +40,7 @@ struct SiteInputs {
     AzimuthReference azimuth = AzimuthReference::grid;
     double declination_deg = 0;  ///< magnetic only, east positive
     std::string depth_unit;      ///< of depths and lengths along holes: "m", "ft"; empty: the collars' own CRS's unit
-    double z_scale = 0;          ///< of the frame; 0: chosen for flat data (tess/site_box.hpp), with a note
+    double z_scale = 0;          ///< of the frame; 0: chosen for flat data (tess/site/site_box.hpp), with a note
     bool strict = false;         ///< the first dirty record is an InputError
 };
 

@@ -20,7 +20,7 @@
 /// Guarantees
 ///  F1  Within the extent, no edge of the tessellation crosses a fault unless both its ends are seeds: of that fault,
 ///      or of one that meets it. The seeds are tested for it, ball by ball of their own tessellation, and what is
-///      found is closed by more seeds or a wider margin (fault_leaks.hpp, fault_seal.hpp); a fault where that fails is
+///      found is closed by more seeds or a wider margin (leaks.hpp, seal.hpp); a fault where that fails is
 ///      refused.
 ///  F2  FaultProximity::side_of is right everywhere; on certified triangles the nearest vertex tells the same.
 ///  F4  Nothing is changed, refused, trimmed or merged silently: every surface handed in is in the report, and the

@@ -11,7 +11,7 @@
 
 #include "tess/build_options.hpp"
 #include "tess/cells.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/progress.hpp"
 #include "tess/value_source.hpp"
 

@@ -11,7 +11,7 @@
 #include "tess/criteria.hpp"
 #include "tess/density.hpp"
 #include "tess/domain.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/site.hpp"
 #include "tess/tessellation.hpp"
 

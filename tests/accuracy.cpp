@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "tess/error.hpp"
-#include "tess/fault_proximity.hpp"
-#include "tess/mesh_walk.hpp"
+#include "tess/barrier_query.hpp"
+#include "tess/mesh/mesh_walk.hpp"
 #include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
 

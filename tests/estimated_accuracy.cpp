@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/estimated_accuracy.hpp"
 #include "interp/estimator_plan.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet::testing {

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-#include "interp/model_source.hpp"
-#include "tess/fault_proximity.hpp"
+#include "interp/plan/model_source.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/value_source.hpp"
 #include "tests/accuracy.hpp"
 

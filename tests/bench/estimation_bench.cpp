@@ -14,9 +14,9 @@
 
 #include "bench/memory.hpp"
 #include "bench/timing.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
+#include "interp/plan/make_estimator.hpp"
 #include "sites.hpp"
 #include "tess/value_source.hpp"
 

@@ -12,11 +12,11 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "interp/cavity.hpp"
-#include "interp/estimator.hpp"
-#include "interp/exact_volumes.hpp"
-#include "interp/morton.hpp"
-#include "interp/natural_neighbour.hpp"
+#include "interp/natural/cavity.hpp"
+#include "interp/estimator/estimator.hpp"
+#include "interp/natural/exact_volumes.hpp"
+#include "interp/base/morton.hpp"
+#include "interp/natural/natural_neighbour.hpp"
 #include "sites.hpp"
 #include "tess/value_source.hpp"
 

@@ -22,8 +22,8 @@
 #include <deque>
 
 #include "refinement_sites.hpp"
-#include "tess/density_edition.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/barrier_query.hpp"
 
 using namespace terratet;
 

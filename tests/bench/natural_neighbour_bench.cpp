@@ -26,11 +26,11 @@
 #include <fstream>
 #include <string>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
-#include "interp/morton.hpp"
-#include "interp/natural_neighbour.hpp"
+#include "interp/plan/make_estimator.hpp"
+#include "interp/base/morton.hpp"
+#include "interp/natural/natural_neighbour.hpp"
 #include "regular_sites.hpp"
 #include "tess/value_source.hpp"
 #include "timing.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"
 #include "timing.hpp"

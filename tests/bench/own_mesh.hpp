@@ -5,7 +5,7 @@
 /// Our refinement on the task of peer.hpp.
 
 #include "peer.hpp"
-#include "tess/refine.hpp"
+#include "tess/refine/refine.hpp"
 #include "tess/refinement.hpp"
 
 namespace terratet::bench {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "tess/quality.hpp"
+#include "tess/mesh/quality.hpp"
 
 namespace terratet::bench {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/read_site.hpp"
-#include "tess/density_edition.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/barrier_query.hpp"
 #include "tests/support.hpp"
 #include "tests/tess/worlds.hpp"
 

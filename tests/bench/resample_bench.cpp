@@ -20,7 +20,7 @@
 #include <fstream>
 #include <vector>
 
-#include "interp/resample.hpp"
+#include "interp/voxels/resample.hpp"
 #include "io/export.hpp"
 #include "tests/support.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "own_mesh.hpp"
 #include "refinement_sites.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/value_source.hpp"
 
 using namespace terratet;

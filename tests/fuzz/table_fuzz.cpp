@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/csv_text.hpp"
-#include "io/read_values.hpp"
-#include "io/text_lines.hpp"
+#include "io/base/csv_text.hpp"
+#include "io/read/read_values.hpp"
+#include "io/base/text_lines.hpp"
 #include "tess/error.hpp"
 
 using namespace terratet;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/cavity.hpp"
+#include "interp/natural/cavity.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "interp/morton.hpp"
+#include "interp/base/morton.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

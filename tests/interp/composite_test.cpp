@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/composite.hpp"
+#include "interp/plan/composite.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/cross_validation.hpp"
+#include "interp/plan/cross_validation.hpp"
 #include "interp/estimator_spec.hpp"
 
 #include <tbb/global_control.h>

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "support.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet::testing {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tess/estimation_barriers.hpp"
+#include "tess/barrier/query/estimation_barriers.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,11 +11,11 @@
 #include "interp/estimator_spec.hpp"
 #include "interp/lattice.hpp"
 #include "interp/model_estimator.hpp"
-#include "interp/model_source.hpp"
-#include "interp/resample.hpp"
+#include "interp/plan/model_source.hpp"
+#include "interp/voxels/resample.hpp"
 #include "tess/build.hpp"
-#include "tess/fault_proximity.hpp"
-#include "tess/own_side.hpp"
+#include "tess/barrier_query.hpp"
+#include "tess/barrier/query/own_side.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
+#include "interp/plan/make_estimator.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 
 #include "sites.hpp"
 #include "tess/error.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/value_source.hpp"
 
 using namespace terratet;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/exact_volumes.hpp"
+#include "interp/natural/exact_volumes.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <string>
 
 #include "estimation.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
-#include "interp/morton.hpp"
-#include "interp/natural_neighbour.hpp"
+#include "interp/plan/make_estimator.hpp"
+#include "interp/base/morton.hpp"
+#include "interp/natural/natural_neighbour.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/extrapolation.hpp"
+#include "interp/plan/extrapolation.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/property.hpp"
 
 using namespace terratet;

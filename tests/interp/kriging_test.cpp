@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/kriging.hpp"
+#include "interp/kriging/kriging.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
+#include "interp/plan/make_estimator.hpp"
 
 #include <tbb/global_control.h>
 
@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "estimation.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "sites.hpp"
 
 using namespace terratet;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/linear_precision.hpp"
+#include "interp/natural/linear_precision.hpp"
 
 #include <tbb/global_control.h>
 
@@ -11,13 +11,13 @@
 #include <set>
 
 #include "estimation.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/extrapolation.hpp"
-#include "interp/make_estimator.hpp"
+#include "interp/plan/extrapolation.hpp"
+#include "interp/plan/make_estimator.hpp"
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/property.hpp"
 
 using namespace terratet;

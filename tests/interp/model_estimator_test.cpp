@@ -11,8 +11,8 @@
 
 #include "estimation.hpp"
 #include "interp/estimator_plan.hpp"
-#include "interp/folds.hpp"
-#include "interp/uncertainty.hpp"
+#include "interp/plan/folds.hpp"
+#include "interp/plan/uncertainty.hpp"
 #include "sites.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/model_source.hpp"
+#include "interp/plan/model_source.hpp"
 #include "interp/estimator_spec.hpp"
 
 #include <tbb/global_control.h>
@@ -11,7 +11,7 @@
 
 #include "estimation.hpp"
 #include "sites.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"
 

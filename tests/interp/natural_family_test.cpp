@@ -8,13 +8,13 @@
 
 #include "estimation.hpp"
 #include "interp/anisotropy.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
-#include "interp/make_estimator.hpp"
+#include "interp/plan/make_estimator.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
 #include "tess/error.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;

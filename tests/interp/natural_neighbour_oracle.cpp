@@ -13,8 +13,8 @@
 #include <cmath>
 #include <map>
 
-#include "interp/exact_volumes.hpp"
-#include "interp/morton.hpp"
+#include "interp/natural/exact_volumes.hpp"
+#include "interp/base/morton.hpp"
 
 namespace terratet::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 
 namespace terratet::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/natural_neighbour.hpp"
+#include "interp/natural/natural_neighbour.hpp"
 
 #include <tbb/global_control.h>
 
@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "estimation.hpp"
-#include "interp/cavity.hpp"
-#include "interp/compact_delaunay.hpp"
-#include "interp/estimator.hpp"
-#include "interp/morton.hpp"
+#include "interp/natural/cavity.hpp"
+#include "interp/sites/compact_delaunay.hpp"
+#include "interp/estimator/estimator.hpp"
+#include "interp/base/morton.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/resample.hpp"
+#include "interp/voxels/resample.hpp"
 
 #include <tbb/global_control.h>
 
@@ -14,7 +14,7 @@
 #include "kuhn_mesh.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 
 using namespace terratet;
 using terratet::testing::kuhn_mesh;

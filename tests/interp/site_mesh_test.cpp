@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/site_mesh.hpp"
+#include "interp/sites/site_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "estimation.hpp"
-#include "interp/cavity.hpp"
-#include "interp/estimator.hpp"
-#include "interp/extrapolation.hpp"
-#include "interp/linear_precision.hpp"
+#include "interp/natural/cavity.hpp"
+#include "interp/estimator/estimator.hpp"
+#include "interp/plan/extrapolation.hpp"
+#include "interp/natural/linear_precision.hpp"
 #include "regular_sites.hpp"
 
 using namespace terratet;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/site_tree.hpp"
+#include "interp/sites/site_tree.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How often the truth lies within what is stated, at boreholes that were held back.
-#include "interp/uncertainty.hpp"
+#include "interp/plan/uncertainty.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,9 +9,9 @@
 #include <functional>
 
 #include "estimation.hpp"
-#include "interp/estimator.hpp"
+#include "interp/estimator/estimator.hpp"
 #include "interp/estimator_plan.hpp"
-#include "interp/local_error.hpp"
+#include "interp/plan/local_error.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"
 #include "tess/property.hpp"

@@ -8,8 +8,8 @@
 
 #include "estimation.hpp"
 #include "interp/estimator_plan.hpp"
-#include "interp/fitted_estimator.hpp"
-#include "interp/variogram_fit.hpp"
+#include "interp/plan/fitted_estimator.hpp"
+#include "interp/kriging/variogram_fit.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"
 

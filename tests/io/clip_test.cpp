@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/clip.hpp"
+#include "io/write/clip.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

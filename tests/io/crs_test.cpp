@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/crs.hpp"
+#include "io/base/crs.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "grid_model.hpp"
-#include "io/csv_text.hpp"
+#include "io/base/csv_text.hpp"
 #include "io/export.hpp"
-#include "io/read_table.hpp"
+#include "io/read/read_table.hpp"
 #include "support.hpp"
 
 using namespace terratet;

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "grid_model.hpp"
-#include "io/color_map.hpp"
+#include "io/write/color_map.hpp"
 #include "io/export.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"

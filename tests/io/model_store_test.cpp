@@ -15,8 +15,8 @@
 #include <iterator>
 #include <thread>
 
-#include "io/gdal_scope.hpp"
-#include "io/model_schema.hpp"
+#include "io/base/gdal_scope.hpp"
+#include "io/model/model_schema.hpp"
 #include "random_model.hpp"
 #include "small_disk.hpp"
 #include "support.hpp"

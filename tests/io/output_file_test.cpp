@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/output_file.hpp"
+#include "io/base/output_file.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

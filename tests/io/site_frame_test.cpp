@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "io/crs.hpp"
+#include "io/base/crs.hpp"
 #include "site_case.hpp"
 
 using namespace terratet;

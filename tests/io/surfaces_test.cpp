@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numeric>
 
-#include "io/gdal_scope.hpp"
-#include "io/read_surfaces.hpp"
+#include "io/base/gdal_scope.hpp"
+#include "io/read/read_surfaces.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

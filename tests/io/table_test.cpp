@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/read_table.hpp"
+#include "io/read/read_table.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

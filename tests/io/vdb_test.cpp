@@ -8,7 +8,7 @@
 
 #include "grid_model.hpp"
 #include "io/export.hpp"
-#include "io/vdb_identity.hpp"
+#include "io/write/vdb_identity.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

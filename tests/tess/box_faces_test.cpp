@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tess/box_faces.hpp"
-#include "tess/density_edition.hpp"
-#include "tess/refine.hpp"
+#include "tess/refine/box_faces.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/refine/refine.hpp"
 #include "tests/support.hpp"
 
 using namespace terratet;

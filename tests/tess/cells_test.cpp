@@ -8,8 +8,8 @@
 
 #include "tess/cells.hpp"
 #include "tess/domain.hpp"
-#include "tess/mesh_walk.hpp"
-#include "tess/quality.hpp"
+#include "tess/mesh/mesh_walk.hpp"
+#include "tess/mesh/quality.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "tess/box_clip.hpp"
+#include "tess/base/box_clip.hpp"
 #include "tess/collapse.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier_query.hpp"
 #include "tests/tess/fault_cases.hpp"
 #include "tests/tess/worlds.hpp"
 

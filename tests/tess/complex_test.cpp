@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "support.hpp"
-#include "tess/compatible.hpp"
-#include "tess/complex_mender.hpp"
+#include "tess/base/compatible.hpp"
+#include "tess/barrier/complex/complex_mender.hpp"
 
 namespace terratet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tess/density_edition.hpp"
+#include "tess/model/density_edition.hpp"
 #include "tess/property.hpp"
 #include "tests/support.hpp"
 

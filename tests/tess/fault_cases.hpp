@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "support.hpp"
-#include "tess/fault.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier/prepare/prepare.hpp"
+#include "tess/barrier_query.hpp"
 
 namespace terratet::testing {
 

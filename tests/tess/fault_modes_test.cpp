@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "tess/fault_seal.hpp"
-#include "tess/seed_grid.hpp"
+#include "tess/barrier/seeds/seal.hpp"
+#include "tess/base/seed_grid.hpp"
 #include "tests/tess/fault_cases.hpp"
 
 namespace terratet {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "tess/fault_complex.hpp"
+#include "tess/barrier/complex/sheet_complex.hpp"
 #include "tests/tess/fault_cases.hpp"
 #include "tests/tess/scec.hpp"
 

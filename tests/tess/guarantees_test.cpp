@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "tess/cells.hpp"
-#include "tess/quality.hpp"
-#include "tess/refine.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/refine/refine.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
 

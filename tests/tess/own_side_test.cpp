@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "tess/cells.hpp"
-#include "tess/own_side.hpp"
+#include "tess/barrier/query/own_side.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "tess/protection_radii.hpp"
-#include "tess/fault.hpp"
-#include "tess/fault_mesh.hpp"
-#include "tess/fault_proximity.hpp"
+#include "tess/barrier/query/protection_radii.hpp"
+#include "tess/barrier/prepare/prepare.hpp"
+#include "tess/base/tri_mesh.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/fault_cases.hpp"
 #include "tests/tess/worlds.hpp"

@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "tess/cells.hpp"
-#include "tess/density_edition.hpp"
+#include "tess/model/density_edition.hpp"
 #include "tess/domain.hpp"
 #include "tess/error.hpp"
 #include "tess/progress.hpp"
-#include "tess/quality.hpp"
+#include "tess/mesh/quality.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
 

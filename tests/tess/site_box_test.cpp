@@ -5,8 +5,8 @@
 
 #include "tess/build.hpp"
 #include "tess/error.hpp"
-#include "tess/site_box.hpp"
-#include "tess/vertex_demand.hpp"
+#include "tess/site/site_box.hpp"
+#include "tess/edit/vertex_demand.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;

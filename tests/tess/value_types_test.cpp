@@ -6,7 +6,7 @@
 #include "tess/error.hpp"
 #include "tess/frame.hpp"
 #include "tess/property.hpp"
-#include "tess/quality.hpp"
+#include "tess/mesh/quality.hpp"
 #include "tests/support.hpp"
 
 using namespace terratet;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/command_line.hpp"
+#include "tools/options/command_line.hpp"
 
 #include <fstream>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/help.hpp"
+#include "tools/options/help.hpp"
 
 #include <algorithm>
 #include <set>

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "tess/error.hpp"
-#include "tools/export_options.hpp"
-#include "tools/model_options.hpp"
-#include "tools/outputs.hpp"
-#include "tools/site_options.hpp"
+#include "tools/options/export_options.hpp"
+#include "tools/options/model_options.hpp"
+#include "tools/run/outputs.hpp"
+#include "tools/options/site_options.hpp"
 
 using namespace terratet;
 using namespace terratet::tools;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/printable.hpp"
+#include "tools/options/printable.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/progress_display.hpp"
+#include "tools/run/progress_display.hpp"
 
 #include <catch2/catch.hpp>
 

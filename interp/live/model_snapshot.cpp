@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/model_snapshot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include "interp/estimator_plan.hpp"
+#include "interp/plan/uncertainty.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+namespace {
+
+CollapsedModel collapse_checked(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
+    CollapsedModel result = collapse_faults(model, mesh, cells, which);
+    const Conformity& c = result.report.conformity;
+    if (!c.proper()) {
+        const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
+        std::ostringstream text;
+        text << "the mesh of faults without width fails its check, first at (" << where.x << ", " << where.y << ", "
+             << where.z << "): " << c.not_positive << " cells turned inside out, " << c.unmatched
+             << " facets without their twin, " << c.overlapping << " overlapping; volume off by " << c.volume_error
+             << "; please report this";
+        throw Error(text.str());
+    }
+    return result;
+}
+
+}  // namespace
+
+/// Each function makes what is missing. \pre The mutex is held.
+struct ModelSnapshot::Impl {
+    std::unique_ptr<TessellatedModel> made;  ///< barriers, tessellation and cells may be missing
+    EstimatorPlan plan;
+    std::shared_ptr<const ModelEstimator> estimator;
+    std::unique_ptr<const ModelEstimator> with_errors;
+    std::array<std::unique_ptr<const CollapsedModel>, 2> collapsed;  ///< all, bounds
+    std::optional<bool> delaunay;
+    bool tessellated = false;
+    bool described = false;
+    std::mutex mutex;
+
+    const FaultProximity& barriers() {
+        if (!made->barriers) {
+            made->barriers = model_proximity(made->model);
+        }
+        return *made->barriers;
+    }
+
+    const TessellatedModel& tessellation() {
+        if (!tessellated) {
+            made->tessellation = tessellate(made->model);
+            made->mesh = made->tessellation.mesh();
+            tessellated = true;
+        }
+        return *made;
+    }
+
+    const CellTable& cells() {
+        if (!described) {
+            const TetMesh& mesh = tessellation().mesh;
+            made->cells = describe_cells(made->model, mesh, barriers());
+            described = true;
+        }
+        return made->cells;
+    }
+
+    const ModelEstimator& estimator_with_errors() {
+        if (!with_errors) {
+            with_errors = std::make_unique<const ModelEstimator>(made->model, barriers(), plan, nullptr,
+                                                                 ModelEstimatorOptions{.uncertainty = true});
+        }
+        return *with_errors;
+    }
+};
+
+ModelSnapshot::ModelSnapshot(Model model) : impl_(std::make_unique<Impl>()) {
+    impl_->plan = parse_estimator_plan(model.estimator);
+    impl_->made = std::make_unique<TessellatedModel>();
+    impl_->made->model = std::move(model);
+}
+
+ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> built, std::shared_ptr<const ModelEstimator> estimator)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->plan = estimator->plan();
+    impl_->made = std::move(built);
+    impl_->estimator = std::move(estimator);
+    impl_->tessellated = true;
+    impl_->described = true;
+}
+
+ModelSnapshot::~ModelSnapshot() = default;
+
+void ModelSnapshot::add_uncertainty() {
+    const std::lock_guard lock(impl_->mutex);
+    const ModelEstimator& estimator = impl_->estimator_with_errors();
+    terratet::add_uncertainty(impl_->made->model, estimator);
+    impl_->plan = estimator.plan();  // with the factors found, so that they stay
+    impl_->made->model.estimator = impl_->plan.to_string();
+    impl_->with_errors.reset();  // both know the model as it was
+    impl_->estimator.reset();
+}
+
+const Model& ModelSnapshot::model() const {
+    return impl_->made->model;
+}
+
+const FaultProximity& ModelSnapshot::barriers() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->barriers();
+}
+
+const TetMesh& ModelSnapshot::mesh() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->tessellation().mesh;
+}
+
+const CellTable& ModelSnapshot::cells() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->cells();
+}
+
+bool ModelSnapshot::is_delaunay() const {
+    const std::lock_guard lock(impl_->mutex);
+    if (!impl_->delaunay) {
+        impl_->delaunay = impl_->tessellation().tessellation.is_delaunay();
+    }
+    return *impl_->delaunay;
+}
+
+const CollapsedModel& ModelSnapshot::collapsed(Collapsing which) const {
+    const std::lock_guard lock(impl_->mutex);
+    auto& result = impl_->collapsed[which == Collapsing::all ? 0 : 1];
+    if (!result) {
+        const CellTable& cells = impl_->cells();
+        result =
+            std::make_unique<CollapsedModel>(collapse_checked(impl_->made->model, impl_->made->mesh, cells, which));
+    }
+    return *result;
+}
+
+const ModelEstimator& ModelSnapshot::estimator() const {
+    const std::lock_guard lock(impl_->mutex);
+    if (!impl_->estimator) {
+        impl_->estimator = std::make_shared<const ModelEstimator>(impl_->made->model, impl_->barriers(), impl_->plan);
+    }
+    return *impl_->estimator;
+}
+
+const ModelEstimator& ModelSnapshot::estimator_with_errors() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->estimator_with_errors();
+}
+
+std::vector<std::uint32_t> ModelSnapshot::neighbours_of(const std::string& borehole) const {
+    const Model& model = this->model();
+    const auto found = std::ranges::find(model.boreholes, borehole, &Borehole::id);
+    if (found == model.boreholes.end()) {
+        throw UsageError("there is no borehole '" + borehole + "'");
+    }
+    const auto number = static_cast<std::int32_t>(found - model.boreholes.begin());
+    std::vector<char> own(model.vertices.size(), 0);
+    for (std::size_t v = 0; v < own.size(); ++v) {
+        const Vertex& vertex = model.vertices[v];
+        own[v] =
+            vertex.role == Role::sample && model.samples.borehole[static_cast<std::size_t>(vertex.owner)] == number;
+    }
+    std::vector<std::uint32_t> neighbours;
+    for (const auto& cell : mesh().cells) {
+        if (std::ranges::any_of(cell, [&](std::uint32_t v) { return own[v] != 0; })) {
+            std::ranges::copy_if(cell, std::back_inserter(neighbours), [&](std::uint32_t v) { return own[v] == 0; });
+        }
+    }
+    std::ranges::sort(neighbours);
+    neighbours.erase(std::ranges::unique(neighbours).begin(), neighbours.end());
+    return neighbours;
+}
+
+}  // namespace terratet

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/base/gdal_dataset.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "io/base/gdal_drivers.hpp"
+#include "io/base/text_lines.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+
+namespace {
+
+/// The file behind `CSV:path`.
+std::string plain_path(const std::string& path) {
+    return path.starts_with("CSV:") ? path.substr(4) : path;
+}
+
+bool is_stream(const std::string& path) {
+    return path.starts_with("/vsistdin/");
+}
+
+std::string first_bytes(const std::string& path) {
+    VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+    if (file == nullptr) {
+        return {};
+    }
+    std::string bytes(4096, '\0');
+    bytes.resize(VSIFReadL(bytes.data(), 1, bytes.size(), file));
+    VSIFCloseL(file);
+    return bytes;
+}
+
+enum class Content { text, utf16, binary };
+
+Content classify(const std::string& head) {
+    if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+        return Content::utf16;
+    }
+    return head.find('\0') == std::string::npos ? Content::text : Content::binary;
+}
+
+/// A file with this extension is read by the CSV driver whatever it holds.
+bool is_csv_name(const std::string& path) {
+    const std::string extension = CPLGetExtension(path.c_str());
+    return std::ranges::any_of(std::array{"csv", "tsv", "psv"},
+                               [&](const char* known) { return EQUAL(extension.c_str(), known); });
+}
+
+void require_file(const Source& source, const std::string& path) {
+    VSIStatBufL status;
+    if (VSIStatL(path.c_str(), &status) != 0) {
+        throw InputError(source.describe() + ": not found");
+    }
+    if (VSI_ISDIR(status.st_mode) && !EQUAL(CPLGetExtension(path.c_str()), "gdb")) {
+        throw InputError(source.describe() + ": is a folder; name a file in it");
+    }
+    if (!VSI_ISDIR(status.st_mode) && status.st_size == 0) {
+        throw InputError(source.describe() + ": the file is empty");
+    }
+}
+
+/// Can this be a table in text, and no other kind of text?
+bool looks_like_text_table(const std::string& head) {
+    const std::size_t first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return classify(head) == Content::text && first != std::string::npos && head[first] != '<' && head[first] != '{' &&
+           !head.starts_with("GOCAD");
+}
+
+Dataset try_open(const std::string& path, const Source& source) {
+    CPLStringList options;
+    for (const std::string& option : source.open_options) {
+        options.AddString(option.c_str());
+    }
+    return Dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, vector_drivers.data(),
+                                     options.List(), nullptr));
+}
+
+std::string reason(const GdalScope& scope) {
+    return scope.failed() ? " (" + scope.failure() + ")" : "";
+}
+
+std::string layer_names(GDALDataset& dataset) {
+    std::string names;
+    for (const OGRLayer* layer : dataset.GetLayers()) {
+        names += (names.empty() ? "" : ", ") + to_utf8(const_cast<OGRLayer*>(layer)->GetName());
+    }
+    return names.empty() ? "none" : names;
+}
+
+OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set) {
+    if (!source.sql.empty()) {
+        result_set = ResultSet(dataset.ExecuteSQL(source.sql.c_str(), nullptr, nullptr), {&dataset});
+        if (!result_set) {
+            throw InputError(source.describe() + ": the statement '" + source.sql + "' gives no rows" + reason(scope));
+        }
+        return result_set.get();
+    }
+    OGRLayer* const layer = source.layer.empty() ? dataset.GetLayer(0) : dataset.GetLayerByName(source.layer.c_str());
+    if (layer == nullptr) {
+        throw InputError(source.path + (source.layer.empty() ? ": has no layer" : ": has no layer " + source.layer) +
+                         "; layers: " + layer_names(dataset));
+    }
+    return layer;
+}
+
+}  // namespace
+
+Dataset open_vector(const Source& source) {
+    const GdalScope scope(source.path);
+    const SafeSqlite settings;
+    const std::string path = plain_path(source.path);
+    const bool file = !is_connection(source.path);
+    if (file && !is_stream(path)) {
+        require_file(source, path);
+    }
+    const std::string head = file ? first_bytes(path) : "";
+    if (file && is_csv_name(path) && classify(head) != Content::text) {
+        throw InputError(source.describe() + (classify(head) == Content::utf16
+                                                  ? ": is UTF-16 text; save it as UTF-8"
+                                                  : ": holds binary data, not a table in text"));
+    }
+    Dataset dataset = try_open(source.path, source);
+    if (!dataset && file && path == source.path && looks_like_text_table(head)) {
+        dataset = try_open("CSV:" + path, source);
+    }
+    if (!dataset) {
+        throw InputError(
+            source.describe() +
+            ": no table that can be read (CSV, XLSX, ODS, XLS, GeoPackage, Shapefile, FlatGeobuf, GeoJSON, "
+            "FileGDB, SQLite, MapInfo, PostGIS)" +
+            reason(scope));
+    }
+    return dataset;
+}
+
+OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set) {
+    OGRLayer* const layer = find_layer(dataset, source, scope, result_set);
+    if (!source.where.empty() && layer->SetAttributeFilter(source.where.c_str()) != OGRERR_NONE) {
+        throw InputError(source.describe() + ": the filter where=" + source.where + " is not understood" +
+                         reason(scope));
+    }
+    return *layer;
+}
+
+Crs crs_of(OGRLayer& layer) {
+    const OGRSpatialReference* const reference = layer.GetSpatialRef();
+    char* wkt = nullptr;
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    const bool stated = reference && reference->exportToWkt(&wkt, options) == OGRERR_NONE;
+    Crs crs = stated ? crs_from_wkt(wkt) : Crs{};
+    CPLFree(wkt);
+    return crs;
+}
+
+}  // namespace terratet

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "io/base/lower_case.hpp"
+#include "io/read/read_table.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+
+namespace {
+
+constexpr std::array<const char*, 11> meaning_names{"id",    "x",       "y",   "z",      "from", "to",
+                                                    "depth", "azimuth", "dip", "length", "name"};
+
+constexpr std::array<std::string_view, 18> unit_words{"m",     "ft",     "feet", "foot", "metre",  "metres",
+                                                      "meter", "meters", "km",   "deg",  "degree", "degrees",
+                                                      "dd",    "masl",   "mbgl", "msl",  "usft",   "amsl"};
+
+/// Without a trailing bracket: "Easting [m]", "Cu (%)".
+std::string_view without_bracket(std::string_view header) {
+    const std::size_t open = header.find_first_of("([{");
+    return open == std::string_view::npos || open == 0 ? header : header.substr(0, open);
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const unsigned char c : text) {
+        if (std::isalnum(c) != 0 || c >= 0x80) {
+            words.back() += static_cast<char>(std::tolower(c));
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    if (words.back().empty()) {
+        words.pop_back();
+    }
+    return words;
+}
+
+void require_known_meanings(const ColumnNames& overrides) {
+    for (const auto& [meaning, column] : overrides) {
+        if (std::ranges::find(meaning_names, meaning) == meaning_names.end()) {
+            std::string known;
+            for (const char* name : meaning_names) {
+                known += (known.empty() ? "" : ", ") + std::string(name);
+            }
+            throw UsageError("--columns " + meaning + "=" + column + ": no such meaning; there are " + known);
+        }
+    }
+}
+
+int column_of_alias(const Table& table, Meaning meaning) {
+    std::vector<std::string> headers;
+    for (const std::string& column : table.columns) {
+        headers.push_back(normal_header(column));
+    }
+    for (const std::string& alias : aliases(meaning)) {
+        const auto found = std::ranges::find(headers, alias);
+        if (found != headers.end()) {
+            return static_cast<int>(found - headers.begin());
+        }
+    }
+    return -1;
+}
+
+std::string list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+}  // namespace
+
+const char* to_string(Meaning meaning) {
+    return meaning_names[static_cast<std::size_t>(meaning)];
+}
+
+const std::vector<std::string>& aliases(Meaning meaning) {
+    static const std::array<std::vector<std::string>, 11> all{{
+        // id
+        {"bhid",       "holeid",    "dhid",     "ddhid",        "drillholeid",  "boreholeid", "boreid",   "wellid",
+         "siteid",     "collarid",  "locaid",   "locationid",   "pointid",      "hole",       "holename", "holeno",
+         "holenumber", "drillhole", "borehole", "boreholename", "bore",         "boreno",     "borename", "well",
+         "wellname",   "uwi",       "api",      "idcode",       "originalname", "id",         "name"},
+        // x
+        {"xcollar", "collarx",  "x",          "xcoord",     "xcoordinate", "coordx",    "east",
+         "easting", "eastings", "eastcollar", "collareast", "utme",        "utmx",      "utmeast",
+         "xutm",    "gridx",    "locationx",  "lon",        "long",        "longitude", "xlong"},
+        // y
+        {"ycollar",  "collary",   "y",     "ycoord",      "ycoordinate", "coordy",   "north",
+         "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",     "utmy",
+         "utmnorth", "yutm",      "gridy", "locationy",   "lat",         "latitude", "ylat"},
+        // z
+        {"zcollar",     "collarz",         "z",          "zcoord",          "zcoordinate", "coordz",   "elev",
+         "elevation",   "elevationz",      "collarelev", "collarelevation", "rl",          "collarrl", "altitude",
+         "groundlevel", "groundelevation", "locagl",     "height",          "masl",        "amsl"},
+        // from
+        {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "defr", "sampfrom", "samplefrom",
+         "intervalfrom", "top", "depthtop", "topdepth", "mdtop", "geoltop"},
+        // to
+        {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "deto", "sampto", "sampleto", "intervalto",
+         "bottom", "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
+        // depth
+        {"at", "deat", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "surveyat", "depth", "dept",
+         "distance"},
+        // azimuth
+        {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
+         "azimuthgrid", "gridazimuth"},
+        // dip
+        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip"},
+        // length
+        {"length", "len", "eoh", "eodh", "td", "totaldepth", "maxdepth", "depthmax", "enddepth", "finaldepth",
+         "holelength", "holedepth", "endofhole"},
+        // name
+        {"name", "fault", "faultname", "faultid", "surface", "surfacename", "horizon", "structure", "object", "group",
+         "id"},
+    }};
+    return all[static_cast<std::size_t>(meaning)];
+}
+
+std::string normal_header(const std::string& header) {
+    std::vector<std::string> words = words_of(without_bracket(header));
+    while (words.size() > 1 && std::ranges::find(unit_words, words.back()) != unit_words.end()) {
+        words.pop_back();
+    }
+    std::string joined;
+    for (const std::string& word : words) {
+        joined += word;
+    }
+    return joined;
+}
+
+int column_named(const Table& table, const std::string& name) {
+    const auto found =
+        std::ranges::find(table.columns, lower_case(name), [](const auto& column) { return lower_case(column); });
+    return found == table.columns.end() ? -1 : static_cast<int>(found - table.columns.begin());
+}
+
+int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {
+    require_known_meanings(overrides);
+    for (const auto& [key, name] : overrides) {
+        if (key == to_string(meaning)) {
+            if (const int column = column_named(table, name); column >= 0) {
+                return column;
+            }
+        }
+    }
+    return column_of_alias(table, meaning);
+}
+
+int find_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {
+    const int column = find_optional_column(table, meaning, overrides);
+    const auto named = std::ranges::find(overrides, to_string(meaning), &ColumnNames::value_type::first);
+    if (column < 0 && named != overrides.end()) {
+        throw UsageError("--columns " + named->first + "=" + named->second + ": " + table.file +
+                         " has no such column; it has " + list(table.columns));
+    }
+    return column;
+}
+
+}  // namespace terratet

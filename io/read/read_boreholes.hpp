@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Collar and survey tables into holes with trajectories. Private to this floor.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/read/read_positions.hpp"
+#include "io/site_inputs.hpp"
+#include "tess/diagnostics.hpp"
+
+namespace terratet {
+
+/// A hole in the target CRS; lengths along it in the target's unit.
+struct Hole {
+    std::string id;
+    Trajectory path;
+    double unit_factor = 1;  ///< target units in a unit of the tables' depths
+    double surveyed =
+        0;  ///< the last station. Often a stand-in such as 90000, "to the end": it says little of the length
+    double deepest = 0;  ///< so far: the stated length; logs add theirs
+
+    /// Where the hole ends: at its stated length or deepest log record, else at its last station.
+    [[nodiscard]] double end() const { return deepest > 0 ? deepest : surveyed; }
+};
+
+/// By id.
+using Holes = std::map<std::string, Hole>;
+
+/// Depths beyond this are no depths (the deepest hole has 12.3 km).
+inline constexpr double max_depth_m = 50e3;
+
+/// Holes from collars that are in the target CRS already. Of collars of one id, and of stations of one hole at one
+/// depth, the first counts and the others are rejected: this is the one place where the order of rows matters. A hole
+/// without survey takes the direction in its collar's record, else it is vertical (both noted with their number).
+/// Throws InputError: no id, depth, dip or azimuth column, no usable row in a table.
+Holes read_boreholes(const std::vector<PlacedTable>& collars, const std::vector<Crs>& collar_crs,
+                     const std::vector<Table>& surveys, const Crs& target, const SiteInputs& inputs,
+                     Diagnostics& diagnostics);
+
+/// The depth in a cell, in units of `unit_factor`; −1, with the reason in `problem`, when it has none.
+double parse_depth(const Table& table, int column, std::size_t row, double unit_factor, double metres_per_unit,
+                   std::string& problem);
+
+}  // namespace terratet

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/read/read_positions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tess/error.hpp"
+#include "tess/samples.hpp"
+
+namespace terratet {
+
+namespace {
+
+constexpr Vec3 nowhere{missing, missing, missing};
+
+struct PositionColumns {
+    int x = -1;
+    int y = -1;
+    int z = -1;
+    [[nodiscard]] bool plane() const { return x >= 0 && y >= 0; }
+};
+
+const std::string& cell(const Table& table, int column, std::size_t row) {
+    return table.cells[static_cast<std::size_t>(column)][row];
+}
+
+const std::string& header(const Table& table, int column) {
+    return table.columns[static_cast<std::size_t>(column)];
+}
+
+bool names_degrees(const Table& table, const PositionColumns& columns) {
+    return columns.plane() && (normal_header(header(table, columns.x)).starts_with("lon") ||
+                               normal_header(header(table, columns.y)).starts_with("lat"));
+}
+
+bool names_column(const ColumnNames& columns, Meaning meaning) {
+    return std::ranges::any_of(columns, [&](const auto& entry) { return entry.first == to_string(meaning); });
+}
+
+/// Do columns and geometry place some row differently, beyond what rounding in a text explains?
+bool differ(const Table& table, const PositionColumns& columns) {
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const auto x = parse_number(cell(table, columns.x, row));
+        const auto y = parse_number(cell(table, columns.y, row));
+        if (!x || !y || !table.points[row]) {
+            continue;
+        }
+        const double tolerance = 1e-6 * (std::abs(*x) + std::abs(*y)) + 1e-9;
+        if (std::abs(*x - table.points[row]->x) > tolerance || std::abs(*y - table.points[row]->y) > tolerance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The columns to use; x and y are −1 when the geometry counts.
+PositionColumns choose_columns(const Table& table, const ColumnNames& names, Diagnostics& diagnostics) {
+    PositionColumns columns{find_column(table, Meaning::x, names), find_column(table, Meaning::y, names),
+                            find_column(table, Meaning::z, names)};
+    const bool geometry = !table.points.empty();
+    if (!columns.plane() && !geometry) {
+        const Meaning lacking = columns.x < 0 ? Meaning::x : Meaning::y;
+        throw InputError(
+            fmt::format("{}: no column for {} and no point geometry; columns: {}; name one with "
+                        "--columns {}=NAME",
+                        table.file, to_string(lacking), fmt::join(table.columns, ", "), to_string(lacking)));
+    }
+    const bool asked = names_column(names, Meaning::x) || names_column(names, Meaning::y);
+    if (columns.plane() && geometry && !table.crs.empty() && !asked && differ(table, columns)) {
+        diagnostics.note(
+            fmt::format("{}: columns {} and {} differ from the points of the layer, which are used "
+                        "(--columns x={} y={} takes the columns)",
+                        table.file, header(table, columns.x), header(table, columns.y), header(table, columns.x),
+                        header(table, columns.y)));
+        columns.x = columns.y = -1;
+    }
+    const bool heights = columns.z >= 0 || std::ranges::any_of(table.points, [](const auto& point) {
+                             return point && !std::isnan(point->z);
+                         });
+    if (!heights) {
+        throw InputError(
+            fmt::format("{}: no column for the height (Z, ELEV, RL, …) and no height in a geometry; columns: "
+                        "{}; name one with --columns z=NAME",
+                        table.file, fmt::join(table.columns, ", ")));
+    }
+    return columns;
+}
+
+/// One axis of one row, or why there is none.
+double coordinate(const Table& table, int column, std::size_t row, double in_geometry, std::string& problem) {
+    if (column < 0) {
+        if (std::isnan(in_geometry)) {
+            problem = "the point has no height";
+        }
+        return in_geometry;
+    }
+    const std::string& text = cell(table, column, row);
+    const std::optional<double> value = parse_number(text);
+    if (!value) {
+        problem = text.empty() ? fmt::format("column {} is empty", header(table, column))
+                               : fmt::format("column {}: '{}' is not a number", header(table, column), text);
+    }
+    return value.value_or(missing);
+}
+
+/// A row's position; nowhere, with the reason in `problem`, when it has none that is acceptable.
+Vec3 position(const Table& table, const PositionColumns& columns, const Crs& crs, std::size_t row,
+              std::string& problem) {
+    const bool from_columns = columns.plane();
+    if (!from_columns && !table.points[row]) {
+        problem = "no point geometry";
+        return nowhere;
+    }
+    const Vec3 point = table.points.empty() ? nowhere : table.points[row].value_or(nowhere);
+    const Vec3 result{coordinate(table, from_columns ? columns.x : -1, row, point.x, problem),
+                      coordinate(table, from_columns ? columns.y : -1, row, point.y, problem),
+                      coordinate(table, columns.z, row, point.z, problem)};
+    if (!problem.empty()) {
+        return nowhere;
+    }
+    if (!is_acceptable(result)) {
+        problem = fmt::format("position {}, {}, {} is beyond {:g}", result.x, result.y, result.z, max_coordinate);
+    } else if (crs.geographic && (std::abs(result.x) > 360 || std::abs(result.y) > 90)) {
+        problem = fmt::format(
+            "{}, {} is no longitude and latitude, which {} asks for; give the right system with "
+            "-s_srs or srs=",
+            result.x, result.y, crs.name);
+    }
+    return problem.empty() ? result : nowhere;
+}
+
+/// Columns called longitude and latitude that hold degrees, in a CRS that is not of degrees: a slip that would put all
+/// of the data within a few metres of the origin.
+void refuse_degrees_in_plane(const PlacedTable& placed, const PositionColumns& columns) {
+    if (placed.crs.geographic || placed.crs.local || !names_degrees(placed.table, columns)) {
+        return;
+    }
+    const bool degrees = std::ranges::all_of(placed.points, [](const Vec3& point) {
+        return !is_finite(point) || (std::abs(point.x) <= 360 && std::abs(point.y) <= 90);
+    });
+    if (degrees) {
+        throw InputError(fmt::format(
+            "{}: columns {} and {} hold degrees, but its coordinate system is {}; add "
+            "srs=EPSG:4326 to the file",
+            placed.table.file, header(placed.table, columns.x), header(placed.table, columns.y), placed.crs.name));
+    }
+}
+
+void require_usable_row(const PlacedTable& placed, const Diagnostics& diagnostics, std::size_t first_rejection) {
+    if (std::ranges::none_of(placed.points, is_finite)) {
+        throw_no_usable_row(placed.table, diagnostics, first_rejection);
+    }
+}
+
+}  // namespace
+
+PlacedTable place(Table table, const Source& source, const std::string& general_crs, const ColumnNames& names,
+                  Diagnostics& diagnostics) {
+    const std::size_t first_rejection = diagnostics.rejected.size();
+    const PositionColumns columns = choose_columns(table, names, diagnostics);
+    const std::string hint = names_degrees(table, columns)
+                                 ? fmt::format(" (its columns {} and {} look like EPSG:4326)", header(table, columns.x),
+                                               header(table, columns.y))
+                                 : "";
+    Crs crs = resolved_crs(source, table.crs, general_crs, hint);
+    PlacedTable placed{std::move(table), std::move(crs), {}, {}};
+    for (std::size_t row = 0; row < placed.table.rows(); ++row) {
+        std::string problem;
+        placed.points.push_back(position(placed.table, columns, placed.crs, row, problem));
+        if (!problem.empty()) {
+            diagnostics.reject(placed.table.file, placed.table.lines[row], problem);
+        }
+    }
+    require_usable_row(placed, diagnostics, first_rejection);
+    refuse_degrees_in_plane(placed, columns);
+    return placed;
+}
+
+void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics) {
+    const std::size_t first_rejection = diagnostics.rejected.size();
+    const CrsTransform transform(placed.crs, target);
+    placed.north_deg.assign(placed.points.size(), 0);
+    if (transform.identity()) {
+        placed.crs = target;
+        return;
+    }
+    for (std::size_t row = 0; row < placed.points.size(); ++row) {
+        placed.north_deg[row] = placed.usable(row) ? transform.north_deg(placed.points[row]) : missing;
+    }
+    const std::vector<Vec3> before = placed.points;
+    transform.apply(placed.points);
+    for (std::size_t row = 0; row < placed.points.size(); ++row) {
+        if (is_finite(before[row]) && !is_acceptable(placed.points[row])) {
+            placed.points[row] = nowhere;
+            diagnostics.reject(placed.table.file, placed.table.lines[row],
+                               fmt::format("{}, {} cannot be transformed from {} to {}", before[row].x, before[row].y,
+                                           placed.crs.name, target.name));
+        }
+    }
+    require_usable_row(placed, diagnostics, first_rejection);
+    if (const std::string remark = transform.remark(); !remark.empty()) {
+        diagnostics.note(placed.table.file + ": " + remark);
+    }
+    placed.crs = target;
+}
+
+Crs resolved_crs(const Source& source, const Crs& in_file, const std::string& general_crs, const std::string& hint) {
+    if (!source.srs.empty()) {
+        return parse_crs(source.srs);
+    }
+    if (!in_file.empty()) {
+        return in_file;
+    }
+    if (!general_crs.empty()) {
+        return parse_crs(general_crs);
+    }
+    throw InputError(source.describe() +
+                     ": no coordinate system is known; name it with -s_srs, or for this file with srs= after it" +
+                     hint);
+}
+
+void throw_no_usable_row(const Table& table, const Diagnostics& diagnostics, std::size_t first_rejection) {
+    std::string reason;
+    if (first_rejection < diagnostics.rejected.size()) {
+        const Rejected& first = diagnostics.rejected[first_rejection];
+        reason = fmt::format("; the first, line {}: {}", first.line, first.reason);
+    }
+    throw InputError(fmt::format("{}: none of its {} rows is usable{}", table.file, table.rows(), reason));
+}
+
+}  // namespace terratet

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Positions of a table's rows, from columns or from its geometry, and the CRS they are in. Private to this floor.
+
+#include <string>
+#include <vector>
+
+#include "io/base/crs.hpp"
+#include "io/read/read_table.hpp"
+#include "tess/diagnostics.hpp"
+
+namespace terratet {
+
+/// A table whose rows have places.
+struct PlacedTable {
+    Table table;
+    Crs crs;                        ///< of `points`
+    std::vector<Vec3> points;       ///< a row each; NaN on all axes where the record was rejected
+    std::vector<double> north_deg;  ///< after to_crs: direction of the original CRS's north, clockwise from `crs`'s
+
+    [[nodiscard]] bool usable(std::size_t row) const { return is_finite(points[row]); }
+};
+
+/// Reads positions. Columns count, unless the layer has points in a known CRS that differ from them (noted): those are
+/// sure to be in that CRS. Heights come from a column, else from the geometry. Rejects records without numbers, with a
+/// coordinate beyond max_coordinate, or with a latitude or longitude that is none. Throws InputError: no coordinates,
+/// no height, no CRS (in the source, in the file, or `general_crs`), degrees in a projected CRS, no usable row.
+PlacedTable place(Table table, const Source& source, const std::string& general_crs, const ColumnNames& columns,
+                  Diagnostics& diagnostics);
+
+/// Transforms the points; rejects records that PROJ cannot transform. Throws InputError when no row is left.
+void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics);
+
+/// The CRS of an input: its own srs=, else the file's, else the general one. Throws InputError naming -s_srs when there
+/// is none; `hint` is appended.
+Crs resolved_crs(const Source& source, const Crs& in_file, const std::string& general_crs,
+                 const std::string& hint = {});
+
+/// Throws InputError "FILE: no usable row…" with the first reason among the rejections from `first_rejection` on.
+[[noreturn]] void throw_no_usable_row(const Table& table, const Diagnostics& diagnostics, std::size_t first_rejection);
+
+}  // namespace terratet

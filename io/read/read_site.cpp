@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/read_site.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "io/read/read_boreholes.hpp"
+#include "io/read/read_positions.hpp"
+#include "io/read/read_samples.hpp"
+#include "io/read/read_surfaces.hpp"
+#include "io/read/read_values.hpp"
+#include "tess/error.hpp"
+#include "tess/site/site_box.hpp"
+
+namespace terratet {
+
+namespace {
+
+/// All inputs as read: tables untyped, places in their own CRS.
+struct Inputs {
+    std::vector<PlacedTable> collars;
+    std::vector<Table> surveys;
+    std::vector<Table> logs;
+    std::vector<PlacedTable> samples;
+    std::vector<RawSurfaces> surfaces;
+};
+
+/// Hands on what a step noted; throws on the first rejection when strict.
+class Checkpoint {
+  public:
+    Checkpoint(const SiteInputs& inputs, Diagnostics& diagnostics, const Progress& progress)
+        : strict_(inputs.strict), seen_(diagnostics.rejected.size()), diagnostics_(diagnostics), progress_(progress) {}
+
+    void pass(double fraction) const {
+        if (strict_ && diagnostics_.rejected.size() > seen_) {
+            const Rejected& first = diagnostics_.rejected[seen_];
+            throw InputError(fmt::format("{}, line {}: {} (--strict)", first.file, first.line, first.reason));
+        }
+        report_progress(progress_, "read", fraction);
+    }
+
+  private:
+    bool strict_;
+    std::size_t seen_;
+    Diagnostics& diagnostics_;
+    const Progress& progress_;
+};
+
+// --- Reading -------------------------------------------------------------------------------------------------------
+
+Table read_noted(const Source& source, Diagnostics& diagnostics) {
+    Table table = read_table(source);
+    for (const std::string& note : table.notes) {
+        diagnostics.note(note);
+    }
+    return table;
+}
+
+/// A surface file, its CRS resolved. Readers want to know the CRS (units, degrees); the general one is only right for a
+/// file that states none, which shows when it has been read.
+RawSurfaces read_surface_file(Source source, SurfaceKind kind, const SiteInputs& inputs, Diagnostics& diagnostics) {
+    if (source.srs.empty() && is_gocad(source.path)) {
+        source.srs = inputs.source_crs;
+    }
+    Diagnostics said;
+    RawSurfaces raw = read_surfaces(source, kind, inputs.columns, said);
+    if (raw.crs.empty() && source.srs.empty() && !inputs.source_crs.empty()) {
+        source.srs = inputs.source_crs;
+        said = {};
+        raw = read_surfaces(source, kind, inputs.columns, said);
+    }
+    raw.crs = resolved_crs(source, raw.crs, inputs.source_crs);
+    std::ranges::move(said.rejected, std::back_inserter(diagnostics.rejected));
+    std::ranges::move(said.notes, std::back_inserter(diagnostics.notes));
+    return raw;
+}
+
+Inputs read_inputs(const SiteInputs& inputs, Diagnostics& diagnostics, const Checkpoint& checkpoint) {
+    Inputs read;
+    const auto placed = [&](const Source& source) {
+        return place(read_noted(source, diagnostics), source, inputs.source_crs, inputs.columns, diagnostics);
+    };
+    for (const Source& source : inputs.boreholes) {
+        read.collars.push_back(placed(source));
+    }
+    for (const Source& source : inputs.surveys) {
+        read.surveys.push_back(read_noted(source, diagnostics));
+    }
+    checkpoint.pass(0.1);
+    for (const Source& source : inputs.logs) {
+        read.logs.push_back(read_noted(source, diagnostics));
+    }
+    for (const Source& source : inputs.samples) {
+        read.samples.push_back(placed(source));
+    }
+    checkpoint.pass(0.4);
+    for (const Source& source : inputs.faults) {
+        read.surfaces.push_back(read_surface_file(source, SurfaceKind::fault, inputs, diagnostics));
+    }
+    for (const Source& source : inputs.surfaces) {
+        read.surfaces.push_back(read_surface_file(source, SurfaceKind::horizon, inputs, diagnostics));
+    }
+    for (const Source& source : inputs.topography) {
+        read.surfaces.push_back(read_surface_file(source, SurfaceKind::topography, inputs, diagnostics));
+    }
+    for (const Source& source : inputs.domain) {
+        RawSurfaces raw = read_domain(source, diagnostics);
+        raw.crs = resolved_crs(source, raw.crs, inputs.source_crs);
+        read.surfaces.push_back(std::move(raw));
+    }
+    checkpoint.pass(0.6);
+    return read;
+}
+
+/// A column named by the user must be in some table; fault files may be tables as well, so with them nobody knows.
+void require_named_columns(const SiteInputs& inputs, const Inputs& read) {
+    if (!read.surfaces.empty()) {
+        return;
+    }
+    for (const auto& named : inputs.columns) {
+        const auto in_table = [&](const Table& table) { return column_named(table, named.second) >= 0; };
+        const auto in_placed = [&](const PlacedTable& placed) { return in_table(placed.table); };
+        if (std::ranges::none_of(read.collars, in_placed) && std::ranges::none_of(read.surveys, in_table) &&
+            std::ranges::none_of(read.logs, in_table) && std::ranges::none_of(read.samples, in_placed)) {
+            throw UsageError(fmt::format("--columns {}={}: no table has such a column", named.first, named.second));
+        }
+    }
+}
+
+// --- One CRS -------------------------------------------------------------------------------------------------------
+
+std::vector<Vec3> surface_points(const RawSurfaces& raw) {
+    std::vector<Vec3> points;
+    for (const Surface& surface : raw.surfaces) {
+        points.insert(points.end(), surface.vertices.begin(), surface.vertices.end());
+    }
+    return points;
+}
+
+/// The UTM zone of the middle of everything, all of which is in longitude and latitude.
+Crs utm_of_middle(const Inputs& read, Diagnostics& diagnostics) {
+    const Crs wgs84 = parse_crs("EPSG:4326");
+    Box3 extent;
+    const auto extend = [&](const Crs& crs, std::vector<Vec3> points) {
+        CrsTransform(crs, wgs84).apply(points);
+        for (const Vec3& point : points) {
+            if (is_finite(point)) {
+                extent.extend(point);
+            }
+        }
+    };
+    for (const auto* tables : {&read.collars, &read.samples}) {
+        for (const PlacedTable& placed : *tables) {
+            extend(placed.crs, placed.points);
+        }
+    }
+    for (const RawSurfaces& raw : read.surfaces) {
+        extend(raw.crs, surface_points(raw));
+    }
+    if (extent.empty()) {
+        throw InputError(
+            "no place of the inputs can be given a longitude and latitude; name a projected system with -t_srs");
+    }
+    const Crs zone = utm_zone(extent.center().x, extent.center().y);
+    diagnostics.note("all inputs are in longitude and latitude; the model is in " + zone.name +
+                     " (-t_srs chooses another)");
+    return zone;
+}
+
+Crs choose_target(const SiteInputs& inputs, const Inputs& read, Diagnostics& diagnostics) {
+    if (!inputs.target_crs.empty()) {
+        Crs target = parse_crs(inputs.target_crs);
+        if (target.geographic) {
+            throw UsageError("-t_srs " + target.name + " is in degrees; a model needs a projected system or local");
+        }
+        return target;
+    }
+    std::vector<const Crs*> in_order;
+    for (const auto* tables : {&read.collars, &read.samples}) {
+        for (const PlacedTable& placed : *tables) {
+            in_order.push_back(&placed.crs);
+        }
+    }
+    for (const RawSurfaces& raw : read.surfaces) {
+        in_order.push_back(&raw.crs);
+    }
+    const auto projected = std::ranges::find_if(in_order, [](const Crs* crs) { return !crs->geographic; });
+    return projected != in_order.end() ? **projected : utm_of_middle(read, diagnostics);
+}
+
+/// All three axes of a model have one unit.
+void require_one_unit(const Crs& target) {
+    if (std::abs(target.metres_per_height / target.metres_per_unit - 1) > 1e-5) {
+        throw UsageError(target.name + " has heights in another unit than its plane (" + target.unit +
+                         "); choose a system with one unit with -t_srs");
+    }
+}
+
+void to_crs(RawSurfaces& raw, const Crs& target, Diagnostics& diagnostics) {
+    const CrsTransform transform(raw.crs, target);
+    for (Surface& surface : raw.surfaces) {
+        transform.apply(surface.vertices);
+        if (!std::ranges::all_of(surface.vertices, is_acceptable)) {
+            throw InputError(
+                fmt::format("{}: surface {} cannot be transformed from {} to {}; is its coordinate system "
+                            "right?",
+                            surface.file, surface.name, raw.crs.name, target.name));
+        }
+    }
+    if (const std::string remark = transform.remark(); !remark.empty() && !raw.surfaces.empty()) {
+        diagnostics.note(raw.surfaces.front().file + ": " + remark);
+    }
+    raw.crs = target;
+    for (Surface& surface : raw.surfaces) {
+        for (Vec3& p : surface.vertices) {
+            p.z = surface.kind == SurfaceKind::domain ? 0 : p.z;  // of a polygon in plan z says nothing
+        }
+    }
+}
+
+/// Brings everything to the target; returns the CRSs that the collar tables were in, whose units their depths have.
+std::vector<Crs> unify(Inputs& read, const Crs& target, Diagnostics& diagnostics) {
+    std::vector<Crs> collar_crs;
+    for (PlacedTable& placed : read.collars) {
+        collar_crs.push_back(placed.crs);
+        to_crs(placed, target, diagnostics);
+    }
+    for (PlacedTable& placed : read.samples) {
+        to_crs(placed, target, diagnostics);
+    }
+    for (RawSurfaces& raw : read.surfaces) {
+        to_crs(raw, target, diagnostics);
+    }
+    return collar_crs;
+}
+
+// --- One frame -----------------------------------------------------------------------------------------------------
+
+/// Boreholes by id, their paths in true coordinates.
+std::vector<Borehole> boreholes_of(const Holes& holes) {
+    std::vector<Borehole> boreholes;
+    for (const auto& [id, hole] : holes) {
+        Borehole borehole{id, hole.path.position(0), {}, hole.path.polyline_depths(hole.end())};
+        for (const double depth : borehole.path_depth) {
+            borehole.path.push_back(hole.path.position(depth));
+        }
+        boreholes.push_back(std::move(borehole));
+    }
+    return boreholes;
+}
+
+Samples samples_of(const std::vector<SampleRecord>& records, const std::vector<Borehole>& boreholes,
+                   std::size_t properties) {
+    Samples samples;
+    samples.values.resize(properties);
+    for (const SampleRecord& record : records) {
+        const auto owner = std::ranges::lower_bound(boreholes, record.hole, {}, &Borehole::id);
+        samples.positions.push_back(record.position);
+        samples.borehole.push_back(record.hole.empty() ? -1 : static_cast<std::int32_t>(owner - boreholes.begin()));
+        samples.depth.push_back(record.depth);
+        samples.length.push_back(record.length);
+        for (std::size_t p = 0; p < properties; ++p) {
+            samples.values[p].push_back(p < record.values.size() ? record.values[p] : missing);
+        }
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        for (std::size_t p = 0; p < records[i].censored.size(); ++p) {
+            samples.set_censoring(p, i, records[i].censored[p]);
+        }
+    }
+    return samples;
+}
+
+/// Calls `visit` with every position of the site.
+template <typename Visit>
+void for_each_position(Site& site, const Visit& visit) {
+    for (Borehole& borehole : site.boreholes) {
+        visit(borehole.collar);
+        std::ranges::for_each(borehole.path, visit);
+    }
+    std::ranges::for_each(site.samples.positions, visit);
+    for (Surface& surface : site.surfaces) {
+        std::ranges::for_each(surface.vertices, visit);
+    }
+}
+
+Frame frame_of(const Crs& crs, const Box3& extent, double z_scale) {
+    return {crs.local ? "" : crs.wkt, crs.name, crs.unit, crs.metres_per_unit, choose_origin(extent), z_scale};
+}
+
+/// Flat data are tessellated in stretched z.
+double chosen_z_scale(const Site& site, const Crs& target, Diagnostics& diagnostics) {
+    const Box3 box = site_box(site, target.metres_per_unit).box;
+    const double scale = suitable_z_scale(box);
+    if (scale > 1) {
+        diagnostics.note(
+            fmt::format("the data are {:.3g} times as wide as high: they are tessellated as if {:g} times as high, "
+                        "where lengths and "
+                        "shapes are judged (--z-scale; 1 leaves them as they are)",
+                        flatness(box), scale));
+    }
+    return scale;
+}
+
+/// From true coordinates to frame-local ones.
+void localize(Site& site, const Crs& target, double z_scale) {
+    Box3 extent;
+    for_each_position(site, [&](const Vec3& point) { extent.extend(point); });
+    site.frame = frame_of(target, extent, z_scale);
+    for_each_position(site, [&](Vec3& point) {
+        point = site.frame.snapped(site.frame.to_local(point));
+        if (!is_acceptable(point)) {
+            throw UsageError("--z-scale " + std::to_string(z_scale) + " takes heights beyond " +
+                             std::to_string(max_coordinate) + "; use a smaller one");
+        }
+    });
+}
+
+bool surface_before(const Surface& a, const Surface& b) {
+    return std::tie(a.kind, a.name, a.vertices, a.triangles) < std::tie(b.kind, b.name, b.vertices, b.triangles);
+}
+
+void require_consistent(const SiteInputs& inputs) {
+    if (inputs.boreholes.empty() && (!inputs.surveys.empty() || !inputs.logs.empty())) {
+        throw UsageError("surveys and logs need the positions of their holes: name the collar table with --boreholes");
+    }
+    if (inputs.boreholes.empty() && inputs.samples.empty() && inputs.faults.empty() && inputs.surfaces.empty() &&
+        inputs.topography.empty()) {
+        throw UsageError("no input: give --boreholes with --log, or --samples");
+    }
+}
+
+}  // namespace
+
+Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& counts, const Progress& progress) {
+    require_consistent(inputs);
+    const Checkpoint checkpoint(inputs, diagnostics, progress);
+
+    Inputs read = read_inputs(inputs, diagnostics, checkpoint);
+    require_named_columns(inputs, read);
+    const Crs target = choose_target(inputs, read, diagnostics);
+    require_one_unit(target);
+    const std::vector<Crs> collar_crs = unify(read, target, diagnostics);
+    checkpoint.pass(0.7);
+
+    Holes holes = read_boreholes(read.collars, collar_crs, read.surveys, target, inputs, diagnostics);
+    checkpoint.pass(0.8);
+
+    PropertyCatalogue catalogue(inputs.properties);
+    std::vector<SampleRecord> records;
+    for (const Table& log : read.logs) {
+        read_log(log, holes, target, inputs, catalogue, records, diagnostics);
+    }
+    for (const PlacedTable& placed : read.samples) {
+        read_loose_samples(placed, inputs, catalogue, records, diagnostics);
+    }
+    checkpoint.pass(0.9);
+
+    Site site;
+    site.boreholes = boreholes_of(holes);
+    site.samples = samples_of(records, site.boreholes, catalogue.properties().size());
+    site.properties = catalogue.finish(site.samples);
+    for (RawSurfaces& raw : read.surfaces) {
+        std::ranges::move(raw.surfaces, std::back_inserter(site.surfaces));
+    }
+    localize(site, target, inputs.z_scale > 0 ? inputs.z_scale : chosen_z_scale(site, target, diagnostics));
+    site.samples = selected(site.samples, canonical_order(site.samples));
+    std::ranges::sort(site.surfaces, surface_before);
+
+    counts.boreholes = site.boreholes.size();
+    counts.samples = site.samples.size();
+    counts.faults = static_cast<std::size_t>(std::ranges::count(site.surfaces, SurfaceKind::fault, &Surface::kind));
+    report_progress(progress, "read", 1);
+    return site;
+}
+
+Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics) {
+    ReadCounts counts;
+    return read_site(inputs, diagnostics, counts);
+}
+
+}  // namespace terratet

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Attribute tables of any GDAL vector source as text columns: numbers are parsed by whoever knows what a column means,
+/// so that ids stay text ("0.0", "Dec-35") and a word among numbers is found and named.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/base/crs.hpp"
+#include "io/base/parse_number.hpp"
+#include "io/source.hpp"
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+/// Cells are text without surrounding blanks; numbers of typed sources (XLSX, GeoPackage) are the shortest text that
+/// reads back as the same number, whole ones without a decimal point.
+struct Table {
+    std::string file;                             ///< for messages
+    std::vector<std::string> columns;             ///< as written, without surrounding blanks
+    std::vector<std::vector<std::string>> cells;  ///< [column][row]; empty text: null
+    std::vector<std::optional<Vec3>> points;  ///< geometry of a point layer; empty when there is none; z NaN when 2D
+    std::vector<std::int64_t> lines;          ///< 1-based line (text files) or record of each row
+    Crs crs;                                  ///< of the geometry, when the source says so
+    std::vector<std::string> notes;           ///< assumptions made in reading, for Diagnostics::notes
+
+    [[nodiscard]] std::size_t rows() const { return lines.size(); }
+};
+
+/// Columns without a name and without any cell (trailing separators) are left out. Where no number of a column has a
+/// decimal point and some can only have a decimal comma, commas become points (noted). Throws InputError: not found,
+/// not a table, no such layer (lists those there are), no row. Opens with a list of allowed drivers only (GDAL's DXF
+/// reader can hang on hostile input, its GML one writes beside the file).
+Table read_table(const Source& source);
+
+/// Meaning → column's name, from `--columns`. A meaning may come several times, for tables that name it differently.
+using ColumnNames = std::vector<std::pair<std::string, std::string>>;
+
+/// Which column carries a meaning: the one named in `overrides` if this table has it (in any case), else the first of
+/// the usual aliases in any case, punctuation and units left out (BHID, HOLEID, "Hole-ID", Depth_m, "Easting [m]"; all
+/// of them in docs/inputs.md); −1 when none does. Throws UsageError when an override names a column that is not there
+/// and no alias is either, and for a meaning that does not exist.
+enum class Meaning { id, x, y, z, from, to, depth, azimuth, dip, length, name };
+int find_column(const Table& table, Meaning meaning, const ColumnNames& overrides);
+
+/// As find_column, but for a table that may do without the meaning: −1 also where find_column would throw.
+int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides);
+
+/// The column of that name, in any case; −1 when there is none.
+int column_named(const Table& table, const std::string& name);
+
+/// "id", "x", …: as `--columns` names them.
+const char* to_string(Meaning meaning);
+
+/// The aliases of a meaning, in the normal form that headers are brought to, by falling precedence.
+const std::vector<std::string>& aliases(Meaning meaning);
+
+/// A header in normal form: lower case, letters and digits only, without a bracketed or trailing unit.
+std::string normal_header(const std::string& header);
+
+}  // namespace terratet

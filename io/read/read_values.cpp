@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/read/read_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+#include "io/base/lower_case.hpp"
+#include "io/base/text_lines.hpp"
+#include "tess/error.hpp"
+
+namespace terratet {
+
+namespace {
+
+bool is_null_word(const std::string& text) {
+    static constexpr std::array<std::string_view, 9> words{"",     "na",     "n/a",  "#n/a", "nan",
+                                                           "null", "(null)", "none", "-"};
+    return std::ranges::find(words, lower_case(text)) != words.end();
+}
+
+/// Numbers that stand for "no value" in tables of the trade.
+bool is_placeholder(double value) {
+    static constexpr std::array<double, 6> placeholders{-999, -999.25, -9999, -9999.25, -99999, -999999};
+    return std::ranges::find(placeholders, value) != placeholders.end();
+}
+
+/// As low as a placeholder might be measured: a column that goes there means its -999.
+constexpr double plausible_low = -99;
+
+bool is_number(const std::string& text) {
+    return parse_number(text) || parse_bound(text);
+}
+
+/// Header without its bracketed unit, and the unit: "Cu (%)" → "Cu", "%".
+std::pair<std::string, std::string> split_unit(const std::string& header) {
+    const std::size_t open = header.find_first_of("([");
+    const std::size_t close = header.find_last_of(")]");
+    if (open == std::string::npos || open == 0 || close != header.size() - 1) {
+        return {header, ""};
+    }
+    const std::size_t end = header.find_last_not_of(" \t", open - 1);
+    return {header.substr(0, end == std::string::npos ? 0 : end + 1), header.substr(open + 1, close - open - 1)};
+}
+
+/// A column that a spreadsheet or a library named for want of a name: a running number more often than a measurement.
+bool is_unnamed(const std::string& header) {
+    const std::string name = lower_case(header);
+    const bool generated = name.starts_with("unnamed: ") || name.starts_with("field");
+    return generated && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
+}
+
+/// Has the column a meaning (position, depth, id), by name or by the user's word? Such columns are no properties unless
+/// asked for.
+std::vector<bool> columns_with_meaning(const Table& table, const ColumnNames& columns) {
+    std::vector<bool> result(table.columns.size(), false);
+    for (const Meaning meaning : {Meaning::id, Meaning::x, Meaning::y, Meaning::z, Meaning::from, Meaning::to,
+                                  Meaning::depth, Meaning::azimuth, Meaning::dip, Meaning::length}) {
+        if (const int column = find_optional_column(table, meaning, columns); column >= 0) {
+            result[static_cast<std::size_t>(column)] = true;
+        }
+        for (std::size_t column = 0; column < table.columns.size(); ++column) {
+            if (std::ranges::find(aliases(meaning), normal_header(table.columns[column])) != aliases(meaning).end()) {
+                result[column] = true;
+            }
+        }
+    }
+    return result;
+}
+
+/// A column taken for a property.
+struct Choice {
+    Property property;
+    std::size_t column;
+};
+
+std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names, Diagnostics& diagnostics) {
+    const std::vector<bool> known = columns_with_meaning(table, names);
+    std::vector<Choice> result;
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+        if (known[column]) {
+            continue;
+        }
+        const auto filled =
+            std::ranges::count_if(table.cells[column], [](const auto& text) { return !is_null_word(text); });
+        const auto numbers = std::ranges::count_if(table.cells[column], is_number);
+        const std::string& name = table.columns[column];
+        const bool repeated = std::ranges::any_of(
+            result, [&](const Choice& choice) { return lower_case(choice.property.name) == lower_case(name); });
+        if (numbers == 0) {
+            continue;
+        }
+        if (is_unnamed(name) || repeated) {
+            diagnostics.note(fmt::format("{}: column {} is left out: {}", table.file, name,
+                                         repeated ? "the first of that name is used" : "it has no name of its own"));
+            continue;
+        }
+        if (2 * numbers < filled) {
+            diagnostics.note(
+                fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; --property {} "
+                            "takes them, {}:categorical takes all as classes",
+                            table.file, name, numbers, filled, name, name));
+            continue;
+        }
+        result.push_back({Property{name, split_unit(name).second, Scale::linear, Kind::continuous, {}}, column});
+    }
+    return result;
+}
+
+/// The columns of the wanted properties that this table has; by whole header, else by header without its unit.
+std::vector<Choice> wanted_columns(const Table& table, const std::vector<Property>& wanted) {
+    std::vector<Choice> result;
+    for (const Property& property : wanted) {
+        const auto named = [&](const auto& form) {
+            return std::ranges::find(table.columns, lower_case(property.name),
+                                     [&](const std::string& header) { return lower_case(form(header)); });
+        };
+        auto found = named([](const std::string& header) { return header; });
+        if (found == table.columns.end()) {
+            found = named([](const std::string& header) { return split_unit(header).first; });
+        }
+        if (found == table.columns.end()) {
+            continue;
+        }
+        const auto column = static_cast<std::size_t>(found - table.columns.begin());
+        if (property.kind == Kind::continuous && std::ranges::none_of(table.cells[column], is_number)) {
+            throw InputError(fmt::format("{}: column {} holds no number; for classes write --property {}:categorical",
+                                         table.file, *found, property.name));
+        }
+        result.push_back({property, column});
+        if (property.unit.empty()) {
+            result.back().property.unit = split_unit(*found).second;
+        }
+    }
+    return result;
+}
+
+/// Placeholders become missing where no measured value is as low.
+void drop_placeholders(std::vector<double>& values, const std::string& where, Diagnostics& diagnostics) {
+    std::map<double, std::size_t> counts;
+    bool measured_low = false;
+    for (const double value : values) {
+        if (is_placeholder(value)) {
+            ++counts[value];
+        } else if (value < plausible_low) {
+            measured_low = true;
+        }
+    }
+    for (const auto& [value, count] : counts) {
+        diagnostics.note(
+            fmt::format("{}: {} cells of {} {}", where, count, value,
+                        measured_low ? "are kept, for other values are as low" : "are taken for no value"));
+    }
+    if (!measured_low) {
+        std::ranges::replace_if(values, is_placeholder, missing);
+    }
+}
+
+void drop_without_logarithm(std::vector<double>& values, const std::string& where, Diagnostics& diagnostics) {
+    const auto bad = [](double value) { return value <= 0; };
+    if (const auto count = std::ranges::count_if(values, bad); count > 0) {
+        diagnostics.note(
+            fmt::format("{}: {} values are not positive, have no logarithm and are taken for no value", where, count));
+        std::ranges::replace_if(values, bad, missing);
+    }
+}
+
+ValueColumn continuous_values(const Table& table, const Choice& choice, std::size_t index, Diagnostics& diagnostics) {
+    const std::string where = table.file + ": column " + table.columns[choice.column];
+    ValueColumn result{index, {}};
+    std::vector<Censoring> censored;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const std::string& text = table.cells[choice.column][row];
+        std::optional<double> value = parse_number(text);
+        censored.push_back(Censoring::none);
+        if (!value && (value = parse_bound(text))) {
+            censored.back() = text.front() == '<' ? Censoring::below : Censoring::above;
+        }
+        if (!value && !is_null_word(text)) {
+            diagnostics.reject(table.file, table.lines[row],
+                               fmt::format("column {}: '{}' is not a number; the record's other values are used",
+                                           table.columns[choice.column], text));
+        }
+        result.values.push_back(value.value_or(missing));
+    }
+    drop_placeholders(result.values, where, diagnostics);
+    if (choice.property.scale == Scale::log10) {
+        drop_without_logarithm(result.values, where, diagnostics);
+    }
+    std::size_t bounds = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        censored[row] = std::isnan(result.values[row]) ? Censoring::none : censored[row];
+        bounds += censored[row] != Censoring::none ? 1 : 0;
+    }
+    if (bounds > 0) {
+        diagnostics.note(fmt::format("{}: {} censored values (<, >) count as their bound", where, bounds));
+        result.censored = std::move(censored);
+    }
+    return result;
+}
+
+/// Indices into `classes`, which grows; in order of appearance until PropertyCatalogue::finish.
+std::vector<double> class_values(const Table& table, const Choice& choice, std::vector<std::string>& classes) {
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        index.emplace(classes[i], i);
+    }
+    std::vector<double> values;
+    for (const std::string& text : table.cells[choice.column]) {
+        if (is_null_word(text)) {
+            values.push_back(missing);
+            continue;
+        }
+        const auto [entry, added] = index.emplace(text, classes.size());
+        if (added) {
+            classes.push_back(text);
+        }
+        values.push_back(static_cast<double>(entry->second));
+    }
+    return values;
+}
+
+}  // namespace
+
+PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
+    for (const std::string& text : wanted) {
+        Property property = parse_property(to_utf8(text));
+        if (std::ranges::any_of(
+                wanted_, [&](const Property& other) { return lower_case(other.name) == lower_case(property.name); })) {
+            throw UsageError("property '" + property.name + "' is asked for twice; name it once, with all that it is");
+        }
+        wanted_.push_back(std::move(property));
+    }
+}
+
+std::size_t PropertyCatalogue::index_of(const Property& property) {
+    const auto found = std::ranges::find(properties_, lower_case(property.name),
+                                         [](const Property& known) { return lower_case(known.name); });
+    if (found == properties_.end()) {
+        properties_.push_back(property);
+        return properties_.size() - 1;
+    }
+    if (found->unit.empty()) {
+        found->unit = property.unit;
+    }
+    return static_cast<std::size_t>(found - properties_.begin());
+}
+
+std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const ColumnNames& columns,
+                                                 Diagnostics& diagnostics) {
+    seen_columns_.insert(seen_columns_.end(), table.columns.begin(), table.columns.end());
+    const std::vector<Choice> choices =
+        wanted_.empty() ? numeric_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
+    if (choices.empty() && wanted_.empty()) {
+        throw InputError(
+            fmt::format("{}: no numeric column to take for a property; columns: {}; --property "
+                        "NAME:categorical takes a column of classes",
+                        table.file, fmt::join(table.columns, ", ")));
+    }
+    if (choices.empty()) {
+        diagnostics.note(table.file + ": has none of the properties asked for and is not used");
+    }
+    std::vector<ValueColumn> result;
+    for (const Choice& choice : choices) {
+        const std::size_t index = index_of(choice.property);
+        std::vector<std::string>& classes = properties_[index].classes;
+        result.push_back(choice.property.kind == Kind::categorical
+                             ? ValueColumn{index, class_values(table, choice, classes)}
+                             : continuous_values(table, choice, index, diagnostics));
+    }
+    return result;
+}
+
+std::vector<Property> PropertyCatalogue::finish(Samples& samples) {
+    for (const Property& property : wanted_) {
+        if (std::ranges::none_of(properties_, [&](const Property& known) {
+                return lower_case(known.name) == lower_case(property.name);
+            })) {
+            throw UsageError(fmt::format("--property {}: no table has such a column; columns: {}", property.name,
+                                         fmt::join(seen_columns_, ", ")));
+        }
+    }
+    for (std::size_t p = 0; p < properties_.size(); ++p) {
+        std::vector<std::string>& classes = properties_[p].classes;
+        std::vector<std::size_t> order(classes.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::sort(order, {}, [&](std::size_t i) { return classes[i]; });
+        std::vector<double> rank(classes.size());
+        std::vector<std::string> sorted;
+        for (const std::size_t i : order) {
+            rank[i] = static_cast<double>(sorted.size());
+            sorted.push_back(classes[i]);
+        }
+        if (properties_[p].kind == Kind::categorical) {
+            for (double& value : samples.values[p]) {
+                value = std::isnan(value) ? value : rank[static_cast<std::size_t>(value)];
+            }
+        }
+        classes = std::move(sorted);
+    }
+    return properties_;
+}
+
+}  // namespace terratet

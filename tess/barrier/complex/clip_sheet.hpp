@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: cutting a mesh where a function given at its points changes sign; planes are the simplest case.
+
+#include <span>
+
+#include "tess/base/tri_mesh.hpp"
+
+namespace terratet {
+
+struct CutMesh {
+    FaultMesh above;  ///< where the level is positive
+    FaultMesh below;
+};
+
+/// Cuts along the zero line of the function that is linear on each triangle and has the given value at each point. Each
+/// half keeps its triangles' sense and stays connected: neighbours share the new points on their edge.
+CutMesh cut_at_zero(const FaultMesh& mesh, std::span<const double> level);
+
+/// The same for the plane x[axis] = at; above is where x[axis] is larger. New points lie exactly on the plane.
+CutMesh cut_at_plane(const FaultMesh& mesh, int axis, double at);
+
+/// What lies inside a box and what outside.
+struct BoxCut {
+    FaultMesh inside;
+    FaultMesh outside;
+};
+BoxCut cut_to_box(FaultMesh mesh, const Box3& box);
+
+}  // namespace terratet

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/barrier/query/protection_radii.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tess/base/seed_grid.hpp"
+#include "tess/base/triangle_grid.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr double same_place = 1e-6;    ///< in spacings
+constexpr double noticeable = 0.7;     ///< of the fault's own radius: more is left as it is
+constexpr double neighbourhood = 1.5;  ///< in spacings: nearer seeds of other faults count
+
+/// How far a point of a triangle may be from the nearest corner: the circumradius, but for an obtuse triangle.
+double covered_by_corners(const TriangleCorners& t) {
+    double radius = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& a = t[k];
+        const Vec3 ab = t[(k + 1) % 3] - a;
+        const Vec3 ac = t[(k + 2) % 3] - a;
+        const double product = dot(ab, ac);
+        if (product <= 0) {  // where the bisectors of the short edges meet the long one
+            const auto reach = [](const Vec3& from, const Vec3& apex, const Vec3& to) {
+                return squared_distance(apex, from) * distance(to, from) / (2 * dot(apex - from, to - from));
+            };
+            const Vec3& b = t[(k + 1) % 3];
+            const Vec3& c = t[(k + 2) % 3];
+            return std::max(reach(b, a, c), reach(c, a, b));
+        }
+        radius = length(ab) * length(ac) * length(ac - ab) / (2 * length(cross(ab, ac)));
+    }
+    return radius;
+}
+
+/// Half the width between the two seeds of a fault over a place; negative where there is no such pair.
+class PairWidths {
+  public:
+    explicit PairWidths(const Fault& fault)
+        : tolerance_(same_place * fault.spacing), grid_(middles(fault), fault.spacing) {
+        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
+            half_.push_back(0.5 * distance(fault.seeds[k].position, fault.seeds[k + 1].position));
+        }
+    }
+
+    [[nodiscard]] double half_at(const Vec3& p) const {
+        const std::uint32_t nearest = grid_.nearest(p);
+        return nearest != SeedGrid::none && distance(grid_.point(nearest), p) <= tolerance_ ? half_[nearest] : -1;
+    }
+
+  private:
+    static std::vector<Vec3> middles(const Fault& fault) {
+        std::vector<Vec3> result;
+        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
+            result.push_back(0.5 * (fault.seeds[k].position + fault.seeds[k + 1].position));
+        }
+        return result;
+    }
+
+    double tolerance_;
+    std::vector<double> half_;
+    SeedGrid grid_;
+};
+
+std::vector<Vec3> seeds_of_others(std::span<const Fault> faults, std::size_t fault) {
+    std::vector<Vec3> seeds;
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Seed& seed : f == fault ? std::vector<Seed>{} : faults[f].seeds) {
+            seeds.push_back(seed.position);
+        }
+    }
+    return seeds;
+}
+
+}  // namespace
+
+std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t fault) {
+    const Fault& own = faults[fault];
+    std::vector<double> radii(own.sheet.triangles.size() + own.margin.triangles.size(), own.protection_radius);
+    const double bare = std::hypot(own.covering_radius, own.width / 2);
+    if (!own.refined || own.seeds.empty() || !(own.covering_radius > 0) || own.protection_radius < bare * (1 - 1e-9)) {
+        return radii;
+    }
+    const double factor = own.protection_radius / bare;  // of bent surfaces
+    const PairWidths widths(own);
+    std::vector<std::pair<std::size_t, Vec3>> smaller;
+    for (std::size_t t = 0; t < own.sheet.triangles.size(); ++t) {
+        TriangleCorners c;
+        double half = 0;
+        bool known = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = own.sheet.vertices[own.sheet.triangles[t][k]];
+            const double here = widths.half_at(c[k]);
+            half = std::max(half, here);
+            known = known && here >= 0;
+        }
+        const double radius = known ? factor * std::hypot(covered_by_corners(c), half) : own.protection_radius;
+        if (radius < noticeable * own.protection_radius) {
+            radii[t] = radius;
+            smaller.emplace_back(t, (c[0] + c[1] + c[2]) / 3);
+        }
+    }
+    const std::vector<Vec3> others = smaller.empty() ? std::vector<Vec3>{} : seeds_of_others(faults, fault);
+    if (!others.empty()) {
+        const double near = neighbourhood * own.spacing;
+        const SeedGrid grid(others, near);
+        for (const auto& [t, middle] : smaller) {
+            const std::uint32_t nearest = grid.nearest(middle);
+            if (nearest != SeedGrid::none && distance(grid.point(nearest), middle) < near) {
+                radii[t] = own.protection_radius;
+            }
+        }
+    }
+    return radii;
+}
+
+}  // namespace terratet

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/barrier/seeds/seal.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tess/barrier/seeds/leaks.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr int rounds = 24;
+constexpr double flake_share = 1e-3;  ///< size of a flake, in protection radii
+constexpr double closable = 0.99;     ///< radius of a ball that one flake closes, in protection radii
+constexpr double coverable = 1.4;     ///< radius of a ball that twelve cover, in the same: 0.68 of it is what it takes
+constexpr double widest_kept = 4;     ///< radius of a ball that several may close, in the same
+constexpr double lowest = 1e-4;       ///< height of an added seed over its sheet at least, in spacings
+constexpr double harmful = 1e-3;      ///< distance of a seed from a foreign sheet, in spacings
+constexpr double touching = 1 - 1e-6;
+
+class Sealer {
+  public:
+    Sealer(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+           const std::function<void(double)>& progress)
+        : faults_(faults), hull_(hull), frame_(frame), progress_(progress), finder_(faults, hull) {
+        seal_.flakes.resize(faults.size());
+    }
+
+    FaultSeal run() {
+        for (int round = 0; round <= rounds; ++round) {
+            bool changes = false;
+            std::size_t closed = 0;
+            for (const Leak& leak : finder_.find([&](double share) { report(round, share); })) {
+                if (closed++ % 64 == 0) {
+                    report(round, 1);
+                }
+                if (close_by_flake(leak) || will_change(leak) ||
+                    (round < rounds && (add_pair(leak) || drop_pair(leak) || keep_away(leak)))) {
+                    changes = true;
+                } else {
+                    seal_.open.push_back({leak.fault, finder_.sites()[leak.from].owner, leak.place});
+                }
+            }
+            if (!changes) {
+                break;
+            }
+            exchange();
+        }
+        return result();
+    }
+
+  private:
+    /// The first round looks at everything; the later ones are short, and nobody knows how many they are.
+    void report(int round, double share) const {
+        if (progress_) {
+            progress_(round == 0 ? 0.7 * share : 1 - 0.3 / (1 + 0.3 * (round - 1 + share)));
+        }
+    }
+
+    struct Pair {
+        std::uint32_t fault = 0;
+        Vec3 plus;
+        Vec3 minus;
+    };
+
+    bool close_by_flake(const Leak& leak) {
+        if (leak.between_seeds || leak.radius > closable * protection(leak)) {
+            return false;
+        }
+        if (!finder_.protects(leak)) {
+            add_flake(leak, leak.center);
+        }
+        return true;
+    }
+
+    /// By what is planned already?
+    [[nodiscard]] bool will_change(const Leak& leak) const {
+        return std::ranges::find(dropped_, finder_.sites()[leak.from].first) != dropped_.end() ||
+               std::ranges::any_of(added_,
+                                   [&](const Pair& pair) { return holds(leak, pair.plus) || holds(leak, pair.minus); });
+    }
+
+    static bool holds(const Leak& leak, const Vec3& p) { return distance(p, leak.center) < touching * leak.radius; }
+
+    [[nodiscard]] double protection(const Leak& leak) const { return faults_[leak.protector].protection_radius; }
+
+    /// Where the sheet runs through the ball, as high as other sheets and seeds allow.
+    bool add_pair(const Leak& leak) {
+        const Fault& fault = faults_[leak.fault];
+        const Vec3 normal = finder_.normal_at(leak.fault, leak.place);
+        double height =
+            std::min(0.5 * fault.width, 0.4 * finder_.distance_to_others(leak.fault, leak.place, 2 * fault.width));
+        for (; height > lowest * fault.spacing; height *= 0.5) {
+            const Vec3 plus = frame_.snapped(leak.place + height * normal);
+            const Vec3 minus = frame_.snapped(leak.place - height * normal);
+            if (fits(plus, leak, height) && fits(minus, leak, height)) {
+                added_.push_back({leak.fault, plus, minus});
+                return true;
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool fits(const Vec3& seed, const Leak& leak, double height) const {
+        const double clear = 0.25 * height;
+        return hull_.grown(-0.5 * faults_[leak.fault].spacing).contains(seed) && holds(leak, seed) &&
+               finder_.distance_to_seed(seed) >= clear &&
+               !finder_.is_hidden(leak.place + 0.01 * (seed - leak.place), seed) &&
+               std::ranges::none_of(added_, [&](const Pair& pair) {
+                   return distance(pair.plus, seed) < clear || distance(pair.minus, seed) < clear;
+               });
+    }
+
+    /// A seed that all but lies on another sheet, or on another part of its own, does more harm than good.
+    bool drop_pair(const Leak& leak) {
+        const LeakFinder::Site& site = finder_.sites()[leak.from];
+        if (finder_.distance_to_sheet(leak.fault, site.position) > harmful * faults_[leak.fault].spacing) {
+            return false;
+        }
+        dropped_.push_back(site.first);
+        return true;
+    }
+
+    /// What the ball reaches beyond the sheet is kept free, bit by bit; all of a small one at once.
+    bool keep_away(const Leak& leak) {
+        if (leak.between_seeds || leak.radius > widest_kept * protection(leak)) {
+            return false;
+        }
+        if (leak.radius < coverable * protection(leak)) {
+            constexpr double small = 0.5257311121191336;  // an icosahedron's corners, half way out
+            constexpr double large = 0.8506508083520399;
+            for (const double a : {-small, small}) {
+                for (const double b : {-large, large}) {
+                    for (const Vec3& out : {Vec3{a, b, 0}, Vec3{b, 0, a}, Vec3{0, a, b}}) {
+                        add_flake(leak, leak.center + 0.5 * leak.radius * out);
+                    }
+                }
+            }
+            return true;
+        }
+        const double back = std::min(1.0, 0.9 * protection(leak) / leak.radius);
+        add_flake(leak, leak.to + back * (leak.center - leak.to));
+        finder_.look_again(leak);
+        return true;
+    }
+
+    void add_flake(const Leak& leak, const Vec3& center) {
+        finder_.protect(leak.protector, center);
+        const double size = flake_share * protection(leak);
+        FaultMesh flake;
+        flake.points = {center, center + Vec3{size, 0, 0}, center + Vec3{0, size, 0}};
+        flake.triangles = {{0, 1, 2}};
+        append(seal_.flakes[leak.protector], flake);
+    }
+
+    void exchange() {
+        for (const std::uint32_t first : dropped_) {
+            seal_.changed.push_back(finder_.sites()[first].position);
+            seal_.changed.push_back(finder_.sites()[first + 1].position);
+            finder_.drop_pair(first);
+        }
+        for (const Pair& pair : added_) {
+            seal_.changed.insert(seal_.changed.end(), {pair.plus, pair.minus});
+            finder_.add_pair(pair.fault, pair.plus, pair.minus);
+        }
+        dropped_.clear();
+        added_.clear();
+    }
+
+    FaultSeal result() {
+        seal_.seeds.resize(faults_.size());
+        for (std::uint32_t i = 0; i < finder_.sites().size(); ++i) {
+            const LeakFinder::Site& site = finder_.sites()[i];
+            if (site.owner != LeakFinder::nobody && site.present) {
+                seal_.seeds[site.owner].push_back({site.position, static_cast<std::int8_t>(i == site.first ? 1 : -1)});
+            }
+        }
+        const auto by_fault = [](const FaultSeal::Open& o) { return std::tuple(o.fault, o.owner, o.place); };
+        std::ranges::sort(seal_.open, {}, by_fault);
+        seal_.open.erase(std::ranges::unique(seal_.open, {}, by_fault).begin(), seal_.open.end());
+        return std::move(seal_);
+    }
+
+    std::span<const Fault> faults_;
+    const Box3& hull_;
+    const Frame& frame_;
+    const std::function<void(double)>& progress_;
+    LeakFinder finder_;
+    std::vector<Pair> added_;             ///< in this round
+    std::vector<std::uint32_t> dropped_;  ///< in this round: first sites of pairs
+    FaultSeal seal_;
+};
+
+}  // namespace
+
+FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+                      const std::function<void(double)>& progress) {
+    return Sealer(faults, hull, frame, progress).run();
+}
+
+}  // namespace terratet

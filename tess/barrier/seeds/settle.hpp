@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: the seeds of exact mode, made to stand in general position.
+///
+/// All seeds round a corner of the sheet lie on one sphere, so that rounding decides how they are tessellated. On each
+/// side of a sheet that hardly bends they all but lie in a plane as well, and a cell between four of one side has no
+/// height. Such cells do not come about where each seed stands a little deeper in the ball the farther it is from the
+/// sheet: the depths of one side are then those of a plane, above which the other side's lie (they are lifted by a
+/// concave function, which a cell of one side alone would have to be below).
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tess/barrier/complex/sheet_complex.hpp"
+
+namespace terratet {
+
+/// A triangle's seeds stand that high over the foot, on both sides; 0: it has none.
+struct BallPair {
+    Vec3 foot;
+    double height = 0;
+};
+
+/// Where to put them, + first: nearer to their corners than the ball's radius, or farther, by at most `depth` radii,
+/// and less where the seeds are low, so that the wall between them stays within 5 depths of the sheet. O(n log n).
+std::vector<std::array<Vec3, 2>> settled_seeds(const FaultComplex& complex, std::span<const double> radii,
+                                               std::span<const BallPair> pairs, double depth);
+
+}  // namespace terratet

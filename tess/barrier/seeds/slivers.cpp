@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/barrier/seeds/slivers.hpp"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "tess/base/tri_mesh.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/base/random_share.hpp"
+
+namespace terratet {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_3<
+    Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+using Vertex = Delaunay::Vertex_handle;
+using Cell = Delaunay::Cell_handle;
+using Corners = std::array<std::uint32_t, 4>;  ///< sites, ascending
+
+constexpr double flat_deg = 1.1;  ///< a degree, and a little for rounding
+constexpr std::uint64_t rounds = 6;
+constexpr std::uint64_t tries = 8;  ///< for each sliver in a round
+
+Kernel::Point_3 to_cgal(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// Site 2k is the + seed of pair k, site 2k + 1 its − seed.
+class Mender {
+  public:
+    Mender(std::vector<MovablePair>& pairs, const SliverTask& task, const Frame& frame, const Poll& poll)
+        : pairs_(pairs), given_(pairs), task_(task), frame_(frame), poll_(poll) {
+        std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
+        for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+            points.emplace_back(to_cgal(pairs[k].plus), 2 * k);
+            points.emplace_back(to_cgal(pairs[k].minus), 2 * k + 1);
+        }
+        tessellation_.insert(points.begin(), points.end());
+        vertices_.resize(points.size());
+        for (const auto vertex : tessellation_.finite_vertex_handles()) {
+            vertices_[vertex->info()] = vertex;
+        }
+    }
+
+    SliversMended run() {
+        SliversMended result;
+        std::set<Corners> slivers = all_slivers();
+        result.before = slivers.size();
+        for (std::uint64_t round = 0; round < rounds && !slivers.empty(); ++round) {
+            std::set<Corners> left;
+            for (const Corners& sliver : slivers) {
+                ask(poll_);
+                mend(sliver, round * tries, left);
+            }
+            std::erase_if(left, [&](const Corners& sliver) { return !is_there(sliver); });
+            slivers = std::move(left);
+        }
+        result.after = slivers.size();
+        for (std::size_t k = 0; k < pairs_.size(); ++k) {
+            result.moved.push_back(pairs_[k].plus != given_[k].plus || pairs_[k].minus != given_[k].minus ? 1 : 0);
+        }
+        return result;
+    }
+
+  private:
+    [[nodiscard]] const Vec3& position(std::uint32_t site) const {
+        return site % 2 == 0 ? pairs_[site / 2].plus : pairs_[site / 2].minus;
+    }
+
+    [[nodiscard]] bool is_sliver(const Cell& cell, Corners& v) const {
+        if (tessellation_.is_infinite(cell)) {
+            return false;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            v[i] = cell->vertex(static_cast<int>(i))->info();
+        }
+        const CellPoints points{position(v[0]), position(v[1]), position(v[2]), position(v[3])};
+        static const double sharp = sharpness(std::cos(flat_deg * std::numbers::pi / 180));
+        if (cell_sharpness(points, -1, sharp) <= sharp || fills_gap(v, points) ||
+            !task_.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3]))) {
+            return false;
+        }
+        std::ranges::sort(v);
+        const Circumsphere ball = circumsphere({position(v[0]), position(v[1]), position(v[2]), position(v[3])});
+        return ball.six_volumes == 0 || ball.squared_radius <= task_.reach * task_.reach;
+    }
+
+    [[nodiscard]] bool fills_gap(const Corners& v, const CellPoints& points) const {
+        const auto sides = std::ranges::count_if(v, [](std::uint32_t site) { return site % 2 == 0; });
+        const bool one = std::ranges::all_of(
+            v, [&](std::uint32_t site) { return pairs_[site / 2].owner == pairs_[v[0] / 2].owner; });
+        if (one && sides > 0 && sides < 4) {
+            return true;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (task_.apart(points[i], points[j])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] std::set<Corners> all_slivers() const {
+        std::set<Corners> slivers;
+        for (const auto cell : tessellation_.finite_cell_handles()) {
+            if (Corners v{}; is_sliver(cell, v)) {
+                slivers.insert(v);
+            }
+        }
+        return slivers;
+    }
+
+    [[nodiscard]] std::set<Corners> slivers_round(const std::set<std::uint32_t>& sites) const {
+        std::set<Corners> slivers;
+        std::vector<Cell> cells;
+        for (const std::uint32_t site : sites) {
+            cells.clear();
+            tessellation_.incident_cells(vertices_[site], std::back_inserter(cells));
+            for (const Cell& cell : cells) {
+                if (Corners v{}; is_sliver(cell, v)) {
+                    slivers.insert(v);
+                }
+            }
+        }
+        return slivers;
+    }
+
+    void add_neighbours(std::uint32_t site, std::set<std::uint32_t>& sites) const {
+        std::vector<Vertex> round;
+        tessellation_.finite_adjacent_vertices(vertices_[site], std::back_inserter(round));
+        for (const Vertex& vertex : round) {
+            sites.insert(vertex->info());
+        }
+    }
+
+    [[nodiscard]] bool is_there(const Corners& sliver) const {
+        Cell cell;
+        Corners v{};
+        return tessellation_.is_cell(vertices_[sliver[0]], vertices_[sliver[1]], vertices_[sliver[2]],
+                                     vertices_[sliver[3]], cell) &&
+               is_sliver(cell, v);
+    }
+
+    void mend(const Corners& sliver, std::uint64_t first, std::set<Corners>& left) {
+        for (std::uint64_t number = first; number < first + tries; ++number) {
+            if (!is_there(sliver)) {
+                return;
+            }
+            try_to_move(sliver[(number + mixed_key(first)) % 4] / 2, number, left);
+        }
+        left.insert(sliver);
+    }
+
+    void try_to_move(std::uint32_t pair, std::uint64_t number, std::set<Corners>& left) {
+        const MovablePair before = pairs_[pair];
+        if (before.along <= 0 && before.height <= 0) {
+            return;
+        }
+        const MovablePair after = proposal(pair, number);
+        if (after.plus == after.minus || !task_.may_move(pair, after.plus, after.minus)) {
+            return;
+        }
+        std::set<std::uint32_t> sites{2 * pair, 2 * pair + 1};
+        add_neighbours(2 * pair, sites);
+        add_neighbours(2 * pair + 1, sites);
+        const std::size_t slivers_before = slivers_round(sites).size();
+        sites.erase(2 * pair);
+        sites.erase(2 * pair + 1);
+        const std::uint32_t near = sites.empty() ? 2 * pair : *sites.begin();
+        sites.insert({2 * pair, 2 * pair + 1});
+        put(pair, after, near);
+        if (const std::set<Corners> slivers = slivers_round(sites); slivers.size() < slivers_before) {
+            left.insert(slivers.begin(), slivers.end());
+        } else {
+            put(pair, before, near);
+        }
+    }
+
+    [[nodiscard]] MovablePair proposal(std::uint32_t pair, std::uint64_t number) const {
+        const auto random = [&](std::uint64_t which) { return random_share(mixed_key(4 * number + which) ^ pair); };
+        MovablePair result = given_[pair];
+        const Vec3 middle = 0.5 * (result.plus + result.minus);
+        const Vec3 half = (1 - result.height * random(0)) * (0.5 * (result.plus - result.minus));
+        const Vec3 normal = unit(half);
+        const Vec3 level = std::abs(normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        const Vec3 first = unit(cross(normal, level));
+        const Vec3 second = cross(normal, first);
+        const double angle = 2 * std::numbers::pi * random(1);
+        const double way = result.along * (0.3 + 0.7 * random(2));
+        const Vec3 shift = way * (std::cos(angle) * first + std::sin(angle) * second);
+        result.plus = frame_.snapped(middle + shift + half);
+        result.minus = frame_.snapped(middle + shift - half);
+        return result;
+    }
+
+    void put(std::uint32_t pair, const MovablePair& at, std::uint32_t near) {
+        for (const std::uint32_t site : {2 * pair, 2 * pair + 1}) {
+            tessellation_.remove(vertices_[site]);
+        }
+        pairs_[pair] = at;
+        Vertex hint = near / 2 == pair ? Vertex{} : vertices_[near];
+        for (const std::uint32_t site : {2 * pair, 2 * pair + 1}) {
+            hint = tessellation_.insert(to_cgal(position(site)), hint);
+            hint->info() = site;
+            vertices_[site] = hint;
+        }
+    }
+
+    std::vector<MovablePair>& pairs_;
+    std::vector<MovablePair> given_;
+    const SliverTask& task_;
+    const Frame& frame_;
+    const Poll& poll_;
+    Delaunay tessellation_;
+    std::vector<Vertex> vertices_;  ///< by site
+};
+
+}  // namespace
+
+SliversMended mend_slivers(std::vector<MovablePair>& pairs, const SliverTask& task, const Frame& frame,
+                           const Poll& poll) {
+    return Mender(pairs, task, frame, poll).run();
+}
+
+}  // namespace terratet

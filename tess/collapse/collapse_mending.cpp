@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/collapse/collapse_mending.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "tess/mending/blend.hpp"
+#include "tess/mending/mend_cells.hpp"
+#include "tess/mesh/quality.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr double wanted_edge = 0.3;  ///< over l_min
+constexpr std::int32_t beyond = -2;
+
+std::vector<CutMesh::Hold> holds(const CollapsedModel& collapsed) {
+    std::vector<CutMesh::Hold> result;
+    for (const Vertex& vertex : collapsed.model.vertices) {
+        const bool stays = vertex.role == Role::sample || vertex.role == Role::seed;
+        result.push_back(stays ? CutMesh::Hold::fixed : CutMesh::Hold::free);
+    }
+    return result;
+}
+
+CutMesh cut_mesh(const CollapsedModel& collapsed) {
+    CutMesh result;
+    result.box = collapsed.model.domain.hull;
+    result.least_edge = wanted_edge * collapsed.model.criteria.l_min;
+    result.points = collapsed.mesh.points;
+    result.hold = holds(collapsed);
+    const CellTable& table = collapsed.cells;
+    for (std::uint32_t c = 0; c < collapsed.mesh.cells.size(); ++c) {
+        const bool is_beyond = table.beyond[c] != 0;
+        const bool is_gap = table.fault[c] >= 0;
+        const std::int32_t part = is_beyond ? beyond : is_gap ? beyond - 1 - table.fault[c] : table.region[c];
+        result.cells.push_back({collapsed.mesh.cells[c], c, part, !is_beyond && !is_gap, false});
+    }
+    return result;
+}
+
+std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<Corners>& cells) {
+    struct Side {
+        Triangle key;
+        std::uint32_t cell;
+        std::uint32_t facet;
+    };
+    std::vector<Side> sides;
+    sides.reserve(4 * cells.size());
+    for (std::uint32_t c = 0; c < cells.size(); ++c) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const auto& o = facet_corners[k];
+            Triangle key{cells[c][o[0]], cells[c][o[1]], cells[c][o[2]]};
+            std::ranges::sort(key);
+            sides.push_back({key, c, k});
+        }
+    }
+    std::ranges::sort(sides, {}, [](const Side& side) { return std::tie(side.key, side.cell); });
+    std::vector<std::array<std::int32_t, 4>> result(cells.size(), {-1, -1, -1, -1});
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+        if (sides[i].key == sides[i + 1].key) {
+            result[sides[i].cell][sides[i].facet] = static_cast<std::int32_t>(sides[i + 1].cell);
+            result[sides[i + 1].cell][sides[i + 1].facet] = static_cast<std::int32_t>(sides[i].cell);
+        }
+    }
+    return result;
+}
+
+/// \param near of each point, a cell of the mesh before
+void take_points(const CutMesh& mended, const std::vector<std::uint32_t>& near, CollapsedModel& collapsed) {
+    Model& model = collapsed.model;
+    std::uint64_t next_id = 0;
+    for (const Vertex& vertex : model.vertices) {
+        next_id = std::max(next_id, vertex.id + 1);
+    }
+    const OwnSideField field(collapsed.mesh, collapsed.cells.fault, model);
+    const VertexValues before = model.vertex_values;
+    for (std::size_t v = 0; v < mended.points.size(); ++v) {
+        if (mended.moved[v] == 0 || near[v] == CutStars::none) {
+            continue;
+        }
+        const Blend blend = field.at(mended.points[v], near[v]);
+        for (std::size_t p = 0; p < model.properties.size(); ++p) {
+            const Property& property = model.properties[p];
+            model.vertex_values.values[p][v] = blended(blend, before.values[p], [&](double a, double b, double t) {
+                if (a == b || property.kind == Kind::categorical) {
+                    return t <= 0.5 ? a : b;
+                }
+                return from_scale(property, std::lerp(to_scale(property, a), to_scale(property, b), t));
+            });
+        }
+        model.vertex_values.extrapolation[v] =
+            blended(blend, before.extrapolation, [](double a, double b, double t) { return std::lerp(a, b, t); });
+        model.vertices[v] = {next_id++, mended.points[v], Role::inserted, -1, 0};
+    }
+    collapsed.mesh.points = mended.points;
+}
+
+template <class T>
+void gather(std::vector<T>& column, const std::vector<CutMesh::Cell>& cells) {
+    std::vector<T> result;
+    result.reserve(cells.size());
+    for (const CutMesh::Cell& cell : cells) {
+        result.push_back(column[cell.parent]);
+    }
+    column = std::move(result);
+}
+
+void take_cells(const std::vector<CutMesh::Cell>& cells, CollapsedModel& collapsed) {
+    CellTable& table = collapsed.cells;
+    gather(table.region, cells);
+    gather(table.fault, cells);
+    gather(table.beyond, cells);
+    gather(table.in_extent, cells);
+    gather(table.reason, cells);
+    gather(table.radius_edge, cells);
+    gather(table.aspect, cells);
+    gather(table.dihedral_min_deg, cells);
+    collapsed.mesh.cells.clear();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const Corners& v = cells[c].corners;
+        collapsed.mesh.cells.push_back(v);
+        if (!cells[c].touched) {
+            continue;
+        }
+        const auto& points = collapsed.mesh.points;
+        const CellQuality quality = cell_quality({points[v[0]], points[v[1]], points[v[2]], points[v[3]]});
+        table.radius_edge[c] = static_cast<float>(quality.radius_edge);
+        table.aspect[c] = static_cast<float>(quality.aspect);
+        table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
+    }
+    collapsed.mesh.neighbours = neighbours_of(collapsed.mesh.cells);
+}
+
+}  // namespace
+
+void mend_collapsed(CollapsedModel& collapsed) {
+    if (collapsed.model.fault_options.mode == FaultMode::exact) {
+        return;  // triangles between three points of a rim part cells that share their nodes, and would be lost
+    }
+    CutMesh mended = cut_mesh(collapsed);
+    mend_cuts(mended);
+    std::erase_if(mended.cells, [](const CutMesh::Cell& cell) { return CutStars::gone(cell); });
+    std::ranges::stable_sort(mended.cells, {}, &CutMesh::Cell::parent);
+    std::vector<std::uint32_t> near(mended.points.size(), CutStars::none);
+    for (const CutMesh::Cell& cell : mended.cells) {
+        for (const std::uint32_t v : cell.corners) {
+            near[v] = std::min(near[v], cell.parent);
+        }
+    }
+    take_points(mended, near, collapsed);
+    take_cells(mended.cells, collapsed);
+}
+
+}  // namespace terratet

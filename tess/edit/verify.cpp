@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "tess/cells.hpp"
+#include "tess/cells/crossing_edges.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/barrier/query/protection_radii.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/refine/refine.hpp"
+#include "tess/base/tetrahedron.hpp"
+
+namespace terratet {
+
+namespace {
+
+std::string show(const Model& model, const Vec3& local) {
+    const Vec3 p = model.frame.to_world(local);
+    std::ostringstream text;
+    text.precision(12);
+    text << "(" << p.x << ", " << p.y << ", " << p.z << ")";
+    return text.str();
+}
+
+/// Collects offenders: the first few by name, all by number.
+class Offenders {
+  public:
+    void add(const std::string& what) {
+        if (++count_ <= 3) {
+            list_ += (list_.empty() ? "" : "; ") + what;
+        }
+    }
+    [[nodiscard]] Verdict verdict(std::string guarantee, std::string statement, const std::string& figures) const {
+        const std::string detail = count_ == 0 ? figures : std::to_string(count_) + " offenders: " + list_;
+        return {std::move(guarantee), count_ == 0, std::move(statement), detail};
+    }
+
+  private:
+    std::size_t count_ = 0;
+    std::string list_;
+};
+
+/// Samples' places sorted by x, for distance questions by sweeping.
+class Sweep {
+  public:
+    explicit Sweep(std::vector<Vec3> points) : points_(std::move(points)) { std::ranges::sort(points_); }
+
+    [[nodiscard]] bool contains(const Vec3& p) const { return std::ranges::binary_search(points_, p); }
+
+    /// Does the question hold for a point nearer to p than r? p itself is asked as well when it is one of them.
+    template <class Question>
+    [[nodiscard]] bool any_of(const Vec3& p, double r, const Question& question) const {
+        const Vec3 from{p.x - r, -max_coordinate * 10, -max_coordinate * 10};
+        for (auto q = std::ranges::lower_bound(points_, from); q != points_.end() && q->x <= p.x + r; ++q) {
+            if (squared_distance(*q, p) < r * r && question(*q)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    std::vector<Vec3> points_;
+};
+
+/// By brute force over all triangles.
+bool in_protection_zone(const Model& model, const std::vector<std::vector<double>>& radii, const Vec3& p) {
+    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        std::size_t next = 0;
+        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {
+            for (const Triangle& t : part->triangles) {
+                const auto& v = part->vertices;
+                const Vec3 q = closest_point_on_triangle(p, v[t[0]], v[t[1]], v[t[2]]);
+                if (distance(p, q) < radii[f][next++] * (1 + 1e-9)) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+class Verifier {
+  public:
+    Verifier(const Model& model, const ValueSourceFactory& factory)
+        : model_(model),
+          proximity_(model_proximity(model)),
+          factory_(factory),
+          source_(factory ? factory(model, proximity_) : ValueSource()),
+          tessellation_(tessellate(model)),
+          mesh_(tessellation_.mesh()),
+          table_(describe_cells(model, mesh_, proximity_)) {
+        for (const Vertex& vertex : model.vertices) {
+            if (vertex.role == Role::sample) {
+                kept_.push_back(vertex.position);
+            }
+        }
+    }
+
+    std::vector<Verdict> run(const Progress& progress) {
+        std::vector<Verdict> verdicts;
+        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::d3,    &Verifier::v1, &Verifier::f1,
+                            &Verifier::r1, &Verifier::r2, &Verifier::r3,    &Verifier::r4, &Verifier::r5,
+                            &Verifier::r6, &Verifier::r7, &Verifier::volume};
+        for (const auto step : steps) {
+            report_progress(progress, "check",
+                            static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
+            verdicts.push_back((this->*step)());
+        }
+        return verdicts;
+    }
+
+  private:
+    [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.points[v]; }
+    [[nodiscard]] CellPoints corners(std::size_t c) const {
+        const auto& v = mesh_.cells[c];
+        return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+    }
+
+    Verdict d1() {
+        Offenders offenders;
+        const Sweep kept(kept_);
+        for (const Vec3& p : kept_) {
+            const double l_min = resolution_.l_min(p);
+            if (kept.any_of(p, l_min, [&](const Vec3& q) {
+                    return p != q && squared_distance(p, q) < std::pow(std::min(l_min, resolution_.l_min(q)), 2);
+                })) {
+                offenders.add("sample at " + show(model_, p));
+            }
+        }
+        return offenders.verdict("D1", "no two kept samples are closer than lmin",
+                                 std::to_string(kept_.size()) + " kept samples");
+    }
+
+    Verdict d2() {
+        Offenders offenders;
+        const Sweep kept(kept_);
+        std::size_t dropped = 0;
+        std::vector<std::vector<double>> radii;
+        for (std::size_t f = 0; f < model_.faults.size(); ++f) {
+            radii.push_back(protection_radii(model_.faults, f));
+        }
+        for (const Vec3& p : model_.samples.positions) {
+            if (!model_.domain.extent.contains(p) || kept.contains(p)) {
+                continue;
+            }
+            ++dropped;
+            const auto any = [](const Vec3&) { return true; };
+            if (!kept.any_of(p, resolution_.l_min(p), any) && !in_protection_zone(model_, radii, p)) {
+                offenders.add("sample at " + show(model_, p));
+            }
+        }
+        return offenders.verdict("D2", "every dropped sample has a kept one within lmin or lies by a fault",
+                                 std::to_string(dropped) + " dropped samples");
+    }
+
+    /// The samples in reversed order.
+    [[nodiscard]] Samples reversed_samples() const {
+        std::vector<std::uint32_t> order(model_.samples.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) {
+            order[i] = static_cast<std::uint32_t>(order.size()) - 1 - i;
+        }
+        return selected(model_.samples, order);
+    }
+
+    Verdict d3() {
+        Offenders offenders;
+        std::vector<std::uint32_t> inside;
+        const Samples reversed = reversed_samples();
+        for (const std::uint32_t i : canonical_order(reversed)) {
+            if (model_.domain.extent.contains(reversed.positions[i])) {
+                inside.push_back(i);
+            }
+        }
+        const Samples samples = selected(reversed, inside);
+        std::vector<Vec3> again;
+        for (const std::uint32_t i : edit_density(samples, resolution_, model_.density, proximity_).kept) {
+            again.push_back(samples.positions[i]);
+        }
+        std::vector<Vec3> kept = kept_;
+        std::ranges::sort(kept);
+        std::ranges::sort(again);
+        if (kept != again) {
+            offenders.add(std::to_string(again.size()) + " would be kept of the samples in reversed order");
+        }
+        return offenders.verdict("D3", "which samples are kept does not depend on their order",
+                                 "the same " + std::to_string(kept.size()) + " in reversed order");
+    }
+
+    Verdict v1() {
+        Offenders offenders;
+        std::size_t values = 0;
+        for (std::size_t i = 0; i < model_.vertices.size(); ++i) {
+            const Vertex& vertex = model_.vertices[i];
+            if (vertex.role != Role::sample) {
+                continue;
+            }
+            const auto owner = static_cast<std::size_t>(vertex.owner);
+            for (std::size_t p = 0; p < model_.properties.size(); ++p) {
+                const double measured = model_.samples.values[p][owner];
+                values += std::isnan(measured) ? 0 : 1;
+                if (!std::isnan(measured) && measured != model_.vertex_values.values[p][i]) {
+                    offenders.add(model_.properties[p].name + " at " + show(model_, vertex.position));
+                }
+            }
+        }
+        return offenders.verdict("V1", "kept samples carry their measured values", std::to_string(values) + " values");
+    }
+
+    Verdict f1() {
+        Offenders offenders;
+        for (const CrossingEdge& edge : fault_crossing_edges(model_, mesh_, proximity_)) {
+            offenders.add("edge " + show(model_, point(edge.a)) + " to " + show(model_, point(edge.b)) + " crosses '" +
+                          model_.faults[static_cast<std::size_t>(edge.fault)].name + "'");
+        }
+        return offenders.verdict(
+            "F1", "in the extent no edge crosses a fault but between seeds of it or of faults that meet it",
+            std::to_string(model_.faults.size()) + " faults");
+    }
+
+    Verdict r1() {
+        const auto inserted = std::ranges::count(model_.vertices, Role::inserted, &Vertex::role);
+        const double bound = resolution_.packing_bound();
+        Offenders offenders;
+        if (static_cast<double>(inserted) > bound) {
+            offenders.add(std::to_string(inserted) + " inserted");
+        }
+        std::ostringstream figures;
+        figures << inserted << " inserted, bound " << static_cast<std::uint64_t>(bound);
+        return offenders.verdict("R1", "inserted vertices stay within the packing bound", figures.str());
+    }
+
+    /// The insertion criteria as the user stated them, from the cell's own measures.
+    [[nodiscard]] bool meets_criteria(std::size_t c) const {
+        constexpr double slack = 1 + 1e-9;
+        const Criteria& limits = model_.criteria;
+        const CellQuality q = cell_quality(corners(c));
+        const bool shape = (limits.radius_edge == 0 || q.radius_edge <= limits.radius_edge * slack) &&
+                           (limits.aspect == 0 || q.aspect <= limits.aspect * slack) &&
+                           (limits.v_max == 0 || q.volume <= limits.v_max * slack) &&
+                           q.longest_edge <= resolution_.l_max(corners(c)) * slack;
+        return shape && meets_variation(c);
+    }
+
+    [[nodiscard]] bool meets_variation(std::size_t c) const {
+        for (std::size_t p = 0; p < model_.criteria.variation.size(); ++p) {
+            const double limit = model_.criteria.variation[p].df_max;
+            const auto& column = model_.vertex_values.values[p];
+            for (const auto& [i, j] : cell_edges) {
+                const auto a = mesh_.cells[c][i];
+                const auto b = mesh_.cells[c][j];
+                if (limit > 0 && scaled_difference(model_.properties[p], column[a], column[b]) > limit * (1 + 1e-9) &&
+                    !proximity_.seen_by(p).crosses_any(point(a), point(b))) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    Verdict r2() {
+        Offenders offenders;
+        std::size_t excused = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+            if (table_.fault[c] >= 0) {
+                continue;
+            }
+            const bool good = meets_criteria(c);
+            excused += good ? 0 : 1;
+            const bool wrong_reason =
+                table_.reason[c] == Reason::too_close &&
+                cell_quality(corners(c)).circumradius > resolution_.largest_l_min() * (1 + 1e-9) + 1e-6;
+            if ((!good && table_.reason[c] == Reason::none) || wrong_reason) {
+                offenders.add("cell at " + show(model_, corners(c)[0]));
+            }
+        }
+        return offenders.verdict(
+            "R2", "each cell meets the criteria or carries a reason",
+            std::to_string(excused) + " of " + std::to_string(mesh_.cells.size()) + " cells carry a reason");
+    }
+
+    Verdict r3() {
+        Offenders offenders;
+        std::vector<Vec3> places;
+        std::map<Vec3, Role> roles;
+        for (const Vertex& vertex : model_.vertices) {
+            places.push_back(vertex.position);
+            roles[vertex.position] = vertex.role;
+        }
+        const Sweep all(std::move(places));
+        std::size_t inserted = 0;
+        for (const Vertex& vertex : model_.vertices) {
+            if (vertex.role != Role::inserted) {
+                continue;
+            }
+            ++inserted;
+            const Vec3& p = vertex.position;
+            const double l_min = resolution_.l_min(p);
+            const bool crowded = all.any_of(p, l_min, [&](const Vec3& q) {
+                const double needed = roles[q] == Role::inserted ? std::min(l_min, resolution_.l_min(q)) : l_min;
+                return q != p && squared_distance(p, q) < needed * needed;
+            });
+            if (crowded) {
+                offenders.add("vertex at " + show(model_, p));
+            }
+        }
+        return offenders.verdict("R3", "no inserted vertex is nearer than lmin to another",
+                                 std::to_string(inserted) + " inserted vertices");
+    }
+
+    Verdict r4() {
+        Offenders offenders;
+        double longest = 0;
+        std::size_t promised = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+            const Circumsphere sphere = circumsphere(corners(c));
+            const CellQuality q = cell_quality(corners(c));
+            const double l_max = resolution_.l_max(corners(c));
+            if (l_max < 4 * resolution_.l_min(sphere.center) || table_.fault[c] >= 0 ||
+                table_.reason[c] == Reason::smooth || !model_.domain.extent.contains(sphere.center) ||
+                proximity_.protecting_fault(sphere.center) >= 0) {
+                continue;
+            }
+            ++promised;
+            longest = std::max(longest, q.longest_edge);
+            if (q.longest_edge > l_max * (1 + 1e-9)) {
+                offenders.add("edge of " + std::to_string(q.longest_edge) + " at " + show(model_, corners(c)[0]));
+            }
+        }
+        std::ostringstream figures;
+        figures << "longest edge " << longest << " in " << promised << " cells, lmax " << model_.criteria.l_max;
+        return offenders.verdict("R4", "no edge above lmax away from faults and box",
+                                 promised > 0 ? figures.str() : "not promised: lmax is below 4 lmin");
+    }
+
+    Verdict r5() {
+        Offenders offenders;
+        if (!tessellation_.is_delaunay()) {
+            offenders.add("an empty-sphere test fails");
+        }
+        return offenders.verdict("R5", "the tessellation is Delaunay", std::to_string(mesh_.cells.size()) + " cells");
+    }
+
+    Verdict r6() {
+        const std::string statement = "the same input gives the same tessellation, in any order of rows";
+        Offenders offenders;
+        if (!factory_) {
+            return offenders.verdict("R6", statement, "not tried: building again needs the estimator");
+        }
+        Site site = model_;
+        site.samples = reversed_samples();
+        std::ranges::reverse(site.surfaces);
+        BuildReport report;
+        const Model again = std::move(build(std::move(site), options_of(model_), factory_, report)->model);
+        if (again.vertices.size() != model_.vertices.size()) {
+            offenders.add(std::to_string(again.vertices.size()) + " vertices when built again");
+        }
+        for (std::size_t i = 0; i < std::min(again.vertices.size(), model_.vertices.size()); ++i) {
+            if (again.vertices[i].position != model_.vertices[i].position) {
+                offenders.add("vertex at " + show(model_, model_.vertices[i].position));
+            }
+        }
+        return offenders.verdict("R6", statement, "built again from reversed rows: the same vertices");
+    }
+
+    Verdict r7() {
+        Offenders offenders;
+        Tessellation again = tessellate(model_);
+        VertexValues values = model_.vertex_values;
+        const ValueSource none = [&](std::span<const ValueQuery> queries) {
+            return ValueBatch{std::vector(model_.properties.size(), std::vector<double>(queries.size(), missing)),
+                              std::vector<double>(queries.size(), 0)};
+        };
+        // Whether a move would be accepted can depend on values at the new place, which only the estimator knows.
+        RefineOptions options;
+        options.clean_up = source_ || !model_.criteria.has_variation();
+        const RefineReport report = refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria,
+                                           model_.properties, source_ ? source_ : none, options);
+        if (report.inserted + report.moved + report.removed > 0) {
+            offenders.add(std::to_string(report.inserted) + " vertices would be inserted, " +
+                          std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");
+        }
+        return offenders.verdict("R7", "refining again changes nothing",
+                                 options.clean_up ? "nothing inserted, moved or removed"
+                                                  : "nothing inserted; moves need the estimator and are not tried");
+    }
+
+    Verdict volume() {
+        Offenders offenders;
+        long double total = 0;
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+            total += static_cast<long double>(cell_quality(corners(c)).volume);
+        }
+        const double hull = model_.domain.hull.volume();
+        const double error = std::abs(static_cast<double>(total) - hull) / hull;
+        std::ostringstream figures;
+        figures << "relative difference " << error;
+        if (!(error <= 1e-9)) {
+            offenders.add(figures.str());
+        }
+        return offenders.verdict("volume", "the cells fill the hull box", figures.str());
+    }
+
+    const Model& model_;
+    FaultProximity proximity_;
+    const ValueSourceFactory& factory_;
+    ValueSource source_;
+    ResolutionField resolution_{model_.criteria, model_.domain, model_.faults};
+    Tessellation tessellation_;
+    TetMesh mesh_;
+    CellTable table_;
+    std::vector<Vec3> kept_;
+};
+
+}  // namespace
+
+std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress) {
+    return Verifier(model, factory).run(progress);
+}
+
+}  // namespace terratet

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/mending/mend_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tess/mending/mending_steps.hpp"
+
+namespace terratet {
+namespace {
+
+constexpr double enough = 0.1;        ///< goodness: 18°
+constexpr double must_have = 0.0302;  ///< goodness: 10°; also cells that were not cut are mended below it
+constexpr double may_have = 0.0076;   ///< goodness: 5°; after points have met, before cells are mended
+constexpr int max_passes = 12;
+
+struct Ranked {
+    double by;
+    std::uint32_t cell;
+    auto operator<=>(const Ranked&) const = default;
+};
+
+constexpr std::size_t ask_every = 64;
+
+/// Sweeps over the bad cells of a mesh; the later ones have few.
+class Mender {
+  public:
+    Mender(CutStars& stars, const Progress& progress) : stars_(stars), progress_(progress) {}
+
+    /// Points nearer to each other than they should be become one. Returns how often.
+    std::size_t shorten() {
+        const double least = stars_.mesh().least_edge * stars_.mesh().least_edge;
+        stars_.let_edges_count(false);
+        const std::size_t changed = sweep(
+            least, [&](const CutMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
+            [&](std::uint32_t c) { return best_shortening(stars_, c, may_have); });
+        stars_.let_edges_count(true);
+        return changed;
+    }
+
+    std::size_t improve() {
+        return sweep(
+            enough, [&](const CutMesh::Cell& cell) { return stars_.goodness(cell); },
+            [&](std::uint32_t c) { return best_change(stars_, c); });
+    }
+
+  private:
+    /// Of the touched cells whose measure is below `least`, the worst first, each that is so still is changed.
+    template <class Measure, class Find>
+    std::size_t sweep(double least, const Measure& measure, const Find& find) {
+        std::vector<Ranked> bad;
+        for (std::uint32_t c = 0; c < stars_.mesh().cells.size(); ++c) {
+            const CutMesh::Cell& cell = stars_.cell(c);
+            if (cell.touched && !CutStars::gone(cell)) {
+                if (const double by = measure(cell); by < least) {
+                    bad.push_back({by, c});
+                }
+            }
+        }
+        std::ranges::sort(bad);
+        std::size_t changed = 0;
+        for (std::size_t i = 0; i < bad.size(); ++i) {
+            if (i % ask_every == 0) {
+                const double done = static_cast<double>(i) / static_cast<double>(bad.size());
+                report_progress(progress_, "mend cells", 1 - std::ldexp(1 - 0.5 * done, -sweeps_));
+            }
+            const CutMesh::Cell& cell = stars_.cell(bad[i].cell);
+            if (CutStars::gone(cell) || measure(cell) >= least) {
+                continue;
+            }
+            if (const std::optional<CutChange> change = find(bad[i].cell)) {
+                make(stars_, *change);
+                ++changed;
+            }
+        }
+        ++sweeps_;
+        return changed;
+    }
+
+    CutStars& stars_;
+    const Progress& progress_;
+    int sweeps_ = 0;
+};
+
+}  // namespace
+
+void mend_cuts(CutMesh& mesh, const Progress& progress) {
+    CutStars stars(mesh);
+    for (CutMesh::Cell& cell : mesh.cells) {
+        cell.touched |= cell.judged && stars.goodness(cell) < must_have;
+    }
+    Mender mender(stars, progress);
+    for (int pass = 0; pass < max_passes && mender.shorten() + mender.improve() > 0; ++pass) {
+    }
+}
+
+}  // namespace terratet

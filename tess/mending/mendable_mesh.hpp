@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Internal: a mesh whose cells were cut, while it is being mended: its cells by their corners, what must stay, and how
+/// good a cell is.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "tess/geometry.hpp"
+#include "tess/base/tetrahedron.hpp"
+
+namespace terratet {
+
+using Corners = std::array<std::uint32_t, 4>;
+
+/// What is to be mended. Points of different numbers may be at one place: the nodes on both sides of a fault without
+/// width, whose facets have no cell beyond.
+struct CutMesh {
+    struct Cell {
+        Corners corners{};         ///< positively oriented; all alike: gone
+        std::uint32_t parent = 0;  ///< carried along: a new cell has the least of those it replaces
+        std::int32_t part = 0;     ///< facets between cells of two parts stay
+        bool judged = true;        ///< its shape counts; of others the volume must be positive, no more
+        bool touched = false;      ///< was cut, or made since: mended if bad
+    };
+    std::vector<Vec3> points;
+    enum class Hold : std::uint8_t {
+        free,
+        surface,  ///< not moved; but may give way to a point of the same surface on the box
+        fixed,    ///< neither moved nor taken away
+    };
+    std::vector<Hold> hold;   ///< of points
+    std::vector<char> moved;  ///< of points: by mending
+    std::vector<Cell> cells;
+    Box3 box;               ///< the mesh ends at its faces, or at surfaces that stay
+    double least_edge = 0;  ///< a cell with a shorter one is worse for it
+};
+
+/// A mesh with the cells at each point, and what follows from them.
+class CutStars {
+  public:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    /// The mesh must outlive it, and is changed by apply() and move() alone.
+    explicit CutStars(CutMesh& mesh);
+
+    [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
+    [[nodiscard]] const CutMesh::Cell& cell(std::uint32_t c) const { return mesh_.cells[c]; }
+    [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.points[v]; }
+    [[nodiscard]] const std::vector<std::uint32_t>& star(std::uint32_t v) const { return star_[v]; }
+
+    static bool has(const CutMesh::Cell& cell, std::uint32_t v);
+    [[nodiscard]] static bool gone(const CutMesh::Cell& cell) { return cell.corners[0] == cell.corners[1]; }
+
+    /// The cell beyond facet k of c; none: there is none.
+    [[nodiscard]] std::uint32_t beyond(std::uint32_t c, std::size_t k) const;
+
+    /// Faces of the box that a point is on, a bit each.
+    [[nodiscard]] std::uint8_t faces(std::uint32_t v) const { return faces_[v]; }
+
+    /// Must the facet stay: between two parts, or where the mesh ends but not at the box?
+    [[nodiscard]] bool is_kept(std::uint32_t c, std::size_t k) const;
+    /// Is the point on a facet that must stay?
+    [[nodiscard]] bool on_kept(std::uint32_t v);
+
+    /// It and, if it is on a facet that must stay, all others at its place that are, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> at_place_of(std::uint32_t v);
+
+    /// The square of the sine of the smallest dihedral angle (1 from a right angle on), less where an edge is too
+    /// short, if edges count; 0 without volume but for rounding, −1 when turned inside out. Of a cell that is not
+    /// judged: 1 with a volume.
+    [[nodiscard]] double goodness(const CutMesh::Cell& cell) const;
+    void let_edges_count(bool count) { edges_count_ = count; }
+
+    /// Of a cell, squared.
+    [[nodiscard]] double shortest_edge(const CutMesh::Cell& cell) const;
+
+    /// Of the worst of these cells if v were elsewhere; −1 when it is `floor` or less.
+    [[nodiscard]] double worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at,
+                                    double floor) const;
+
+    /// The cells `old` are gone, `fresh` are there instead.
+    void apply(std::span<const std::uint32_t> old, std::span<const CutMesh::Cell> fresh);
+    void move(std::uint32_t v, const Vec3& to);
+
+  private:
+    [[nodiscard]] double goodness(const std::array<Vec3, 4>& points, bool judged) const;
+    [[nodiscard]] std::array<Vec3, 4> points_of(const CutMesh::Cell& cell) const;
+
+    CutMesh& mesh_;
+    bool edges_count_ = true;
+    std::vector<std::vector<std::uint32_t>> star_;
+    std::vector<std::uint8_t> faces_;
+    std::vector<std::uint32_t> by_place_;  ///< points by place, then number
+    std::vector<std::uint32_t> rank_;      ///< of a point in it
+    std::vector<std::int8_t> on_kept_;     ///< −1: not known yet
+};
+
+}  // namespace terratet

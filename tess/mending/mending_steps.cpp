@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/mending/mending_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tess/base/tetrahedron.hpp"
+
+namespace terratet {
+namespace {
+
+using Cell = CutMesh::Cell;
+
+constexpr double better = 1.05;      ///< goodness after a change over that before
+constexpr std::size_t max_ring = 7;  ///< cells round an edge that is taken out
+constexpr double off_surface = 0.2;  ///< a kept facet moves no farther, over the least edge
+constexpr double turned = 0.7;       ///< cosine: nor does it turn farther
+constexpr double first_step = 0.3;   ///< of a moving point, over its star's mean edge
+constexpr double last_step = 0.02;
+
+/// Looks for the best change at one cell.
+class Search {
+  public:
+    Search(CutStars& stars, std::uint32_t cell) : stars_(stars), cell_(cell) {}
+
+    std::optional<CutChange> run() {
+        const Corners v = stars_.cell(cell_).corners;
+        for (const auto& [i, j] : cell_edges) {
+            contract(v[i], v[j]);
+            contract(v[j], v[i]);
+            take_out_edge(v[i], v[j]);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            take_out_facet(k);
+        }
+        for (const std::uint32_t corner : v) {
+            move(corner);
+        }
+        return std::move(best_);
+    }
+
+    std::optional<CutChange> shorten(double enough) {
+        shortening_ = true;
+        enough_ = enough;
+        const Corners v = stars_.cell(cell_).corners;
+        const double least = stars_.mesh().least_edge * stars_.mesh().least_edge;
+        for (const auto& [i, j] : cell_edges) {
+            if (squared_distance(stars_.point(v[i]), stars_.point(v[j])) < least) {
+                contract(v[i], v[j]);
+                contract(v[j], v[i]);
+            }
+        }
+        return std::move(best_);
+    }
+
+  private:
+    [[nodiscard]] double worst_of(const std::vector<std::uint32_t>& cells) const {
+        double worst = 1;
+        for (const std::uint32_t c : cells) {
+            worst = std::min(worst, stars_.goodness(stars_.cell(c)));
+        }
+        return worst;
+    }
+
+    /// Keeps the change if it is the best so far. Where all that is wanted is that points meet, no cell may get worse
+    /// than the worst, or than `enough_`; else the worst must get better.
+    void offer(CutChange change) {
+        const double before = worst_of(change.old);
+        double least = shortening_ ? std::nextafter(std::min(before, enough_), -2.0) : better * before;
+        least = best_ ? std::max(least, best_->worst) : least;
+        change.worst = 1;
+        for (const Cell& cell : change.fresh) {
+            change.worst = std::min(change.worst, stars_.goodness(cell));
+            if (change.worst <= least || change.worst < 0) {
+                return;
+            }
+        }
+        if (fits(change)) {
+            best_ = std::move(change);
+        }
+    }
+
+    /// No facet of three cells: where cells are flat to rounding, places do not tell.
+    [[nodiscard]] bool fits(const CutChange& change) const {
+        return std::ranges::all_of(change.fresh, [&](const Cell& cell) {
+            return std::ranges::all_of(facet_corners, [&](const auto& o) {
+                const std::array facet{cell.corners[o[0]], cell.corners[o[1]], cell.corners[o[2]]};
+                const auto has_it = [&](const Cell& other) {
+                    return std::ranges::all_of(facet, [&](std::uint32_t v) { return CutStars::has(other, v); });
+                };
+                const auto stay = std::ranges::count_if(stars_.star(facet[0]), [&](std::uint32_t c) {
+                    return has_it(stars_.cell(c)) && std::ranges::find(change.old, c) == change.old.end();
+                });
+                return stay + std::ranges::count_if(change.fresh, has_it) <= 2;
+            });
+        });
+    }
+
+    /// Can a, alone or with what else is at its place, go to b? Then which of the points at b's place each goes to.
+    [[nodiscard]] std::vector<std::uint32_t> goals(const std::vector<std::uint32_t>& from, std::uint32_t b) {
+        const std::vector<std::uint32_t> at = stars_.at_place_of(b);
+        std::vector<std::uint32_t> result;
+        for (const std::uint32_t a : from) {
+            std::set<std::uint32_t> met;
+            for (const std::uint32_t c : stars_.star(a)) {
+                std::ranges::copy_if(at, std::inserter(met, met.end()),
+                                     [&](std::uint32_t v) { return CutStars::has(stars_.cell(c), v); });
+            }
+            if (met.size() != 1) {
+                return {};
+            }
+            result.push_back(*met.begin());
+        }
+        return result;
+    }
+
+    /// Is the edge one of a kept facet, and do the kept facets at a hardly move when a goes to b?
+    [[nodiscard]] bool stays_on_surface(std::uint32_t a, std::uint32_t b) const {
+        bool along = false;
+        for (const std::uint32_t c : stars_.star(a)) {
+            const Cell& cell = stars_.cell(c);
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (cell.corners[k] == a || !stars_.is_kept(c, k)) {
+                    continue;
+                }
+                std::array<Vec3, 3> before{};
+                std::array<Vec3, 3> after{};
+                bool has_b = false;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const std::uint32_t v = cell.corners[facet_corners[k][i]];
+                    before[i] = stars_.point(v);
+                    after[i] = v == a ? stars_.point(b) : before[i];
+                    has_b |= v == b;
+                }
+                along |= has_b;
+                if (has_b) {
+                    continue;
+                }
+                const Vec3 n = cross(before[1] - before[0], before[2] - before[0]);
+                const Vec3 m = cross(after[1] - after[0], after[2] - after[0]);
+                const double off = std::abs(dot(n, stars_.point(b) - stars_.point(a)));
+                if (off > off_surface * stars_.mesh().least_edge * length(n) ||
+                    dot(n, m) < turned * length(n) * length(m)) {
+                    return false;
+                }
+            }
+        }
+        return along;
+    }
+
+    void contract(std::uint32_t a, std::uint32_t b) {
+        const CutMesh::Hold hold = stars_.mesh().hold[a];
+        const bool onto_face = stars_.faces(a) == 0 && stars_.faces(b) != 0;
+        if (hold == CutMesh::Hold::fixed || (hold == CutMesh::Hold::surface && !(onto_face && stars_.on_kept(a))) ||
+            (stars_.faces(a) & ~stars_.faces(b)) != 0) {
+            return;
+        }
+        const std::vector<std::uint32_t> from = stars_.at_place_of(a);
+        const std::vector<std::uint32_t> to = goals(from, b);
+        if (to.empty()) {
+            return;
+        }
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            if (stars_.on_kept(from[i]) && !stays_on_surface(from[i], to[i])) {
+                return;
+            }
+        }
+        CutChange change;
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            for (const std::uint32_t c : stars_.star(from[i])) {
+                change.old.push_back(c);
+                if (!CutStars::has(stars_.cell(c), to[i])) {
+                    change.fresh.push_back(stars_.cell(c));
+                    std::ranges::replace(change.fresh.back().corners, from[i], to[i]);
+                }
+            }
+        }
+        offer(std::move(change));
+    }
+
+    /// Points round the edge from a to b in order, seen from b anticlockwise; on a face of the box from end to end.
+    /// Empty where it has to stay.
+    [[nodiscard]] std::vector<std::uint32_t> ring(std::uint32_t a, std::uint32_t b,
+                                                  const std::vector<std::uint32_t>& cells) const {
+        std::vector<std::array<std::uint32_t, 2>> links;
+        for (const std::uint32_t c : cells) {
+            if (stars_.cell(c).part != stars_.cell(cells[0]).part) {
+                return {};
+            }
+            links.push_back(link_of(stars_.cell(c).corners, a, b));
+        }
+        const auto leads_to = [&](std::uint32_t v) {
+            return std::ranges::find(links, v, [](const auto& link) { return link[1]; });
+        };
+        auto first = std::ranges::find_if(links, [&](const auto& link) { return leads_to(link[0]) == links.end(); });
+        const bool open = first != links.end();
+        std::vector<std::uint32_t> result{open ? (*first)[0] : links[0][0]};
+        for (std::size_t i = 0; i < links.size(); ++i) {
+            const auto next = std::ranges::find(links, result.back(), [](const auto& link) { return link[0]; });
+            if (next == links.end()) {
+                return {};
+            }
+            result.push_back((*next)[1]);
+        }
+        if (!open) {
+            if (result.back() != result.front()) {
+                return {};
+            }
+            result.pop_back();
+            return result;
+        }
+        const auto mask =
+            stars_.faces(a) & stars_.faces(b) & stars_.faces(result.front()) & stars_.faces(result.back());
+        return mask != 0 ? result : std::vector<std::uint32_t>{};
+    }
+
+    /// The other two corners of a cell, p and q, so that a, b, p, q is positive.
+    static std::array<std::uint32_t, 2> link_of(const Corners& v, std::uint32_t a, std::uint32_t b) {
+        Corners order{a, b, 0, 0};
+        std::size_t next = 2;
+        for (const std::uint32_t corner : v) {
+            if (corner != a && corner != b) {
+                order[next++] = corner;
+            }
+        }
+        const bool odd = is_odd_order(v, order);
+        return odd ? std::array{order[3], order[2]} : std::array{order[2], order[3]};
+    }
+
+    [[nodiscard]] Cell like(const std::vector<std::uint32_t>& old, const Corners& corners) const {
+        Cell cell = stars_.cell(old[0]);
+        cell.corners = corners;
+        for (const std::uint32_t c : old) {
+            cell.parent = std::min(cell.parent, stars_.cell(c).parent);
+        }
+        return cell;
+    }
+
+    void take_out_edge(std::uint32_t a, std::uint32_t b) {
+        CutChange change;
+        std::ranges::copy_if(stars_.star(a), std::back_inserter(change.old),
+                             [&](std::uint32_t c) { return CutStars::has(stars_.cell(c), b); });
+        if (change.old.size() > max_ring) {
+            return;
+        }
+        const std::vector<std::uint32_t> round = ring(a, b, change.old);
+        if (round.size() < 3) {
+            return;
+        }
+        for (std::size_t apex = 0; apex < (round.size() == 3 ? 1 : round.size()); ++apex) {
+            change.fresh.clear();
+            const auto at = [&](std::size_t k) { return round[(apex + k) % round.size()]; };
+            for (std::size_t k = 1; k + 1 < round.size(); ++k) {
+                change.fresh.push_back(like(change.old, {at(0), at(k), at(k + 1), b}));
+                change.fresh.push_back(like(change.old, {at(k), at(0), at(k + 1), a}));
+            }
+            offer(change);
+        }
+    }
+
+    void take_out_facet(std::size_t k) {
+        const std::uint32_t other = stars_.beyond(cell_, k);
+        const Corners& v = stars_.cell(cell_).corners;
+        if (other == CutStars::none || stars_.cell(other).part != stars_.cell(cell_).part) {
+            return;
+        }
+        const std::array<std::uint32_t, 3> facet{v[facet_corners[k][0]], v[facet_corners[k][1]],
+                                                 v[facet_corners[k][2]]};
+        const auto apex = std::ranges::find_if(stars_.cell(other).corners, [&](std::uint32_t corner) {
+            return std::ranges::find(facet, corner) == facet.end();
+        });
+        CutChange change;
+        change.old = {cell_, other};
+        for (std::size_t i = 0; i < 3; ++i) {
+            change.fresh.push_back(like(change.old, {v[k], *apex, facet[i], facet[(i + 1) % 3]}));
+        }
+        offer(std::move(change));
+    }
+
+    /// Along the axes that its faces leave free, and towards the middle of its neighbours, in ever smaller steps.
+    void move(std::uint32_t v) {
+        if (stars_.mesh().hold[v] != CutMesh::Hold::free || stars_.on_kept(v)) {
+            return;
+        }
+        const Vec3 start = stars_.point(v);
+        CutChange change;
+        change.old = stars_.star(v);
+        Vec3 sum;
+        double edges = 0;
+        double count = 0;
+        for (const std::uint32_t c : change.old) {
+            for (const std::uint32_t w : stars_.cell(c).corners) {
+                if (w != v) {
+                    sum = sum + stars_.point(w);
+                    edges += distance(start, stars_.point(w));
+                    ++count;
+                }
+            }
+        }
+        std::vector<Vec3> directions{sum / count - start};
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((stars_.faces(v) >> (2 * axis) & 3) != 0) {
+                directions[0][axis] = 0;
+                continue;
+            }
+            Vec3 along;
+            along[axis] = edges / count;
+            directions.push_back(along);
+            directions.push_back(-along);
+        }
+        const double before = worst_of(change.old);
+        double worst = before;
+        Vec3 at = start;
+        for (double step = first_step; step > last_step; step /= 2) {
+            for (const Vec3& direction : directions) {
+                const Vec3 to = at + step * direction;
+                if (const double there = stars_.worst_with(change.old, v, to, worst); there > worst) {
+                    worst = there;
+                    at = to;
+                }
+            }
+        }
+        if (worst > better * before && worst > (best_ ? best_->worst : 0)) {
+            change.mover = v;
+            change.to = at;
+            change.worst = worst;
+            best_ = std::move(change);
+        }
+    }
+
+    CutStars& stars_;
+    std::uint32_t cell_;
+    bool shortening_ = false;
+    double enough_ = 1;
+    std::optional<CutChange> best_;
+};
+
+}  // namespace
+
+std::optional<CutChange> best_change(CutStars& stars, std::uint32_t cell) {
+    return Search(stars, cell).run();
+}
+
+std::optional<CutChange> best_shortening(CutStars& stars, std::uint32_t cell, double enough) {
+    return Search(stars, cell).shorten(enough);
+}
+
+void make(CutStars& stars, const CutChange& change) {
+    if (change.mover == CutStars::none) {
+        stars.apply(change.old, change.fresh);
+    } else {
+        stars.move(change.mover, change.to);
+    }
+}
+
+}  // namespace terratet

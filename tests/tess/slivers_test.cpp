@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cells between four seeds, counted in a tessellation straight from CGAL.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tess/barrier/seeds/slivers.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tests/tess/fault_cases.hpp"
+#include "tests/tess/scec.hpp"
+
+namespace terratet {
+namespace {
+
+using testing::gridded;
+using testing::rectangle;
+
+const Box3 extent{{0, 0, 0}, {400, 400, 400}};
+constexpr double spacing = 20;
+
+struct Count {
+    std::size_t cells = 0;
+    std::size_t slivers = 0;   ///< with a dihedral angle below a degree,
+    std::size_t enclosed = 0;  ///< and with a ball that nothing may enter
+};
+
+/// Of the cells between four seeds in the extent that fill no gap and whose balls may stay empty.
+Count count_slivers(const std::vector<Fault>& faults, const Box3& within) {
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Base = CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>;
+    using Delaunay = CGAL::Delaunay_triangulation_3<
+        Kernel, CGAL::Triangulation_data_structure_3<Base, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+    std::vector<std::pair<std::size_t, Seed>> seeds;
+    std::vector<std::pair<Kernel::Point_3, std::size_t>> points;
+    for (std::size_t f = 0; f < faults.size(); ++f) {
+        for (const Seed& seed : faults[f].seeds) {
+            points.push_back({{seed.position.x, seed.position.y, seed.position.z}, seeds.size()});
+            seeds.emplace_back(f, seed);
+        }
+    }
+    const FaultProximity proximity(faults);
+    const auto fills_gap = [&](const std::array<std::size_t, 4>& v, const CellPoints& p) {
+        const auto differs = [&](std::size_t i) { return seeds[i].second.side != seeds[v[0]].second.side; };
+        if (std::ranges::all_of(v, [&](std::size_t i) { return seeds[i].first == seeds[v[0]].first; }) &&
+            std::ranges::any_of(v, differs)) {
+            return true;
+        }
+        for (std::size_t f = 0; f < faults.size(); ++f) {
+            for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}) {
+                if (proximity.crosses(static_cast<std::int32_t>(f), p[i], p[j])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    Count count;
+    const Delaunay tessellation(points.begin(), points.end());
+    for (const auto cell : tessellation.finite_cell_handles()) {
+        std::array<std::size_t, 4> v{};
+        CellPoints p;
+        for (std::size_t i = 0; i < 4; ++i) {
+            v[i] = cell->vertex(static_cast<int>(i))->info();
+            p[i] = seeds[v[i]].second.position;
+        }
+        const CellQuality quality = cell_quality(p);
+        if (quality.circumradius <= 3 * faults[0].spacing && within.contains(0.25 * (p[0] + p[1] + p[2] + p[3])) &&
+            !fills_gap(v, p)) {
+            ++count.cells;
+            if (quality.dihedral_min_deg < 1) {
+                ++count.slivers;
+                count.enclosed += quality.circumradius < faults[0].protection_radius ? 1 : 0;
+            }
+        }
+    }
+    return count;
+}
+
+Count count_of(const std::vector<Surface>& surfaces, FaultMode mode) {
+    FaultOptions options;
+    options.mode = mode;
+    return count_slivers(prepare_faults(surfaces, extent, {}, spacing, options).faults, extent);
+}
+
+Surface dome(double height) {
+    return gridded("dome", 40, 40, [=](double u, double v) {
+        return Vec3{600 * u - 100, 600 * v - 100, 200 + height * std::sin(3 * u) * std::cos(2 * v)};
+    });
+}
+
+std::vector<Surface> crossing() {
+    return {rectangle("a", {200, 200, 200}, {300, 0, 0}, {0, 300, 0}),
+            rectangle("b", {200, 200, 200}, {0, 300, 0}, {100, 0, 290})};
+}
+
+}  // namespace
+
+TEST_CASE("In exact mode the seeds round a point make no slivers, flat, all but flat, or bent") {
+    for (const double height : {0.0, 1e-5, 1e-2, 1.0, 10.0, 60.0}) {
+        INFO("dome of " << height << " m");
+        const Count count = count_of({dome(height)}, FaultMode::exact);
+        CHECK(count.cells > 0);
+        CHECK(count.slivers <= 12);
+        CHECK(count.enclosed == 0);
+    }
+    CHECK(count_of({testing::dipping("dipping", {200, 200, 200}, 37, 52, 500, 500)}, FaultMode::exact).enclosed == 0);
+}
+
+TEST_CASE("In paired mode seeds make no slivers, where faults cross and bend neither") {
+    std::size_t cells = 0;
+    for (const std::vector<Surface>& surfaces :
+         {std::vector{dome(60)}, std::vector{testing::wavy()}, std::vector{testing::cylinder(160)}, crossing()}) {
+        INFO(surfaces[0].name);
+        const Count count = count_of(surfaces, FaultMode::paired);
+        CHECK(count.slivers == 0);
+        cells += count.cells;
+    }
+    CHECK(cells > 100);
+}
+
+}  // namespace terratet

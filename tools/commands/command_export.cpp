@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/spdlog.h>
+
+#include "tess/error.hpp"
+#include "tools/options/command.hpp"
+#include "tools/run/open_model.hpp"
+#include "tools/run/outputs.hpp"
+#include "tools/run/pipeline.hpp"
+#include "tools/run/process.hpp"
+#include "tools/run/progress_display.hpp"
+#include "tools/report/report.hpp"
+#include "tools/commands/run_build.hpp"
+
+namespace terratet::tools {
+namespace {
+
+class Export final : public Command {
+  public:
+    Syntax syntax() override {
+        Syntax syntax{"export", export_options(exporting_), {"MODEL.gpkg and OUTPUT", 2, 1000, &paths_}};
+        append(syntax, {{"Model", {accept_edited_option(accept_edited_)}}});
+        append(syntax, run_options(run_));
+        return syntax;
+    }
+
+    int run(const std::vector<Given>&) override {
+        const Stopwatch total;
+        const std::string& input = paths_.front();
+        const std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
+        for (const auto& output : outputs) {
+            if (names_model(output)) {
+                throw UsageError(output + ": is a model; export writes other formats");
+            }
+        }
+        check_export_arguments(exporting_);
+        check_outputs(outputs, {input}, exporting_, run_);
+
+        const ThreadLimit threads(run_.threads);
+        LiveModel live(open_model(input, accept_edited_));
+        if (exporting_.uncertainty) {
+            live.add_uncertainty();
+        }
+        RunRecord record;
+        record.model = live.snapshot();
+        const Stopwatch writing;
+        {
+            ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
+            record.written = write_outputs(*record.model, outputs, exporting_, run_, {}, display.callback());
+        }
+        record.write_seconds = writing.seconds();
+        record.total_seconds = total.seconds();
+        write_report(record, run_);
+        spdlog::info("{}", summary_text(record));
+        return exit_done;
+    }
+
+  private:
+    ExportArguments exporting_;
+    RunArguments run_;
+    std::vector<std::string> paths_;
+    bool accept_edited_ = false;
+};
+
+}  // namespace
+
+CommandEntry export_command() {
+    return {"export",
+            "a model into meshes, scenes and voxels",
+            "MODEL.gpkg OUTPUT…",
+            "Writes a model in one or several formats, each by its extension.",
+            {"terratet export site.gpkg site.vtu site.glb", "terratet export -tr 5m site.gpkg site.vdb",
+             "terratet export --clip --fault-gap collapse site.gpkg elements.vtu"},
+            [] { return std::make_unique<Export>(); }};
+}
+
+}  // namespace terratet::tools

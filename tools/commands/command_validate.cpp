@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "interp/estimator_spec.hpp"
+#include "io/base/output_file.hpp"
+#include "tess/error.hpp"
+#include "tools/options/command.hpp"
+#include "tools/options/model_options.hpp"
+#include "tools/run/open_model.hpp"
+#include "tools/run/outputs.hpp"
+#include "tools/options/printable.hpp"
+#include "tools/run/process.hpp"
+#include "tools/run/progress_display.hpp"
+#include "tools/options/run_options.hpp"
+#include "tools/options/site_options.hpp"
+#include "tools/report/validation.hpp"
+#include "tools/version.hpp"
+
+namespace terratet::tools {
+namespace {
+
+bool is_fault(const Surface& surface) {
+    return surface.kind == SurfaceKind::fault;
+}
+
+/// For estimating no surface need be prepared: it is the barrier. Horizons are where they are hard.
+std::vector<Fault> as_barriers(const Site& site) {
+    const bool hard = std::ranges::any_of(site.properties, &Property::hard_horizons);
+    std::vector<Fault> faults;
+    for (const Surface& surface : site.surfaces) {
+        if (is_fault(surface) || (hard && surface.kind == SurfaceKind::horizon)) {
+            Fault& fault = faults.emplace_back();
+            fault.name = surface.name;
+            fault.sheet = surface;
+        }
+    }
+    return faults;
+}
+
+class Validate final : public Command {
+  public:
+    Syntax syntax() override {
+        Syntax syntax{"validate", site_options(site_), {"MODEL.gpkg", 0, 1, &models_}};
+        append(syntax, {{"Validation",
+                         {
+                             {{"estimator"},
+                              "SPEC",
+                              "one to try, repeatable; by default natural, idw, kriging, nearest",
+                              &estimators_},
+                             {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
+                             horizon_option(horizon_),
+                             accept_edited_option(accept_edited_),
+                             {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
+                         }}});
+        append(syntax, run_options(run_));
+        return syntax;
+    }
+
+    int run(const std::vector<Given>&) override {
+        std::vector<EstimatorSpec> specs;
+        for (const auto& text :
+             estimators_.empty() ? std::vector<std::string>{"natural", "idw", "kriging", "nearest"} : estimators_) {
+            specs.push_back(parse_estimator(text));
+        }
+        std::vector<std::string> inputs = input_paths(site_);
+        inputs.insert(inputs.end(), models_.begin(), models_.end());
+        check_places(plot_.empty() ? std::vector<std::string>{} : std::vector{plot_}, inputs, run_);
+        const ThreadLimit threads(run_.threads);
+        Diagnostics diagnostics;
+        Model model;
+        std::vector<PropertyValidation> all;
+        {
+            ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
+            model = input(diagnostics, display.callback());
+            if (!horizon_.empty()) {
+                set_horizons(horizon_, model);  // of a model, another than it was built with
+            }
+            if (models_.empty()) {
+                model.faults = as_barriers(model);
+            }
+            const FaultProximity faults = model_proximity(model);
+            CrossValidationOptions options;
+            options.max_folds = folds_;
+            all = validate_all(model, faults, specs, options, display.callback());
+        }
+        if (all.empty()) {
+            throw InputError("no property has a sample: there is nothing to validate");
+        }
+        if (!plot_.empty()) {
+            write_svg(validation_charts(model, all), plot_, run_.overwrite);
+        }
+        write_json(model, diagnostics, all);
+        if (run_.report != "-") {
+            print(printable(validation_text(model, all), true));
+        }
+        return exit_done;
+    }
+
+  private:
+    Model input(Diagnostics& diagnostics, const Progress& progress) const {
+        if (!models_.empty()) {
+            return open_model(models_.front(), accept_edited_, progress);
+        }
+        Model model;
+        ReadCounts counts;
+        static_cast<Site&>(model) = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
+        composite_as_asked(model, site_, diagnostics);
+        merge_coincident(model.samples, model.properties);
+        return model;
+    }
+
+    void write_json(const Model& model, const Diagnostics& diagnostics, const std::vector<PropertyValidation>& all) {
+        if (run_.report.empty()) {
+            return;
+        }
+        using Json = nlohmann::ordered_json;
+        Json rejected = Json::array();
+        for (const auto& record : diagnostics.rejected) {
+            rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
+        }
+        const Json report{
+            {"terratet", version},
+            {"input",
+             {{"boreholes", model.boreholes.size()},
+              {"samples", model.samples.size()},
+              {"faults", models_.empty() ? std::ranges::count_if(model.surfaces, is_fault) : std::ssize(model.faults)},
+              {"rejected", rejected},
+              {"notes", diagnostics.notes}}},
+            {"properties", validation_json(model, all)}};
+        const std::string text = json_text(report);
+        if (run_.report == "-") {
+            print(text);
+            return;
+        }
+        OutputFile file(run_.report, run_.overwrite);
+        file.write(text);
+        file.commit();
+    }
+
+    SiteArguments site_;
+    RunArguments run_;
+    std::vector<std::string> models_;
+    std::vector<std::string> estimators_;
+    std::string plot_;
+    std::string horizon_;
+    bool accept_edited_ = false;
+    std::uint64_t folds_ = 0;
+};
+
+}  // namespace
+
+CommandEntry validate_command() {
+    return {
+        "validate",
+        "cross-validation: which estimator suits the data",
+        "[inputs | MODEL.gpkg] [--estimator SPEC …]",
+        "Leaves each borehole out, estimates it from the others, and compares with what was measured: errors, bias, "
+        "rank correlation, and how often the truth lies within the stated uncertainty. Shows each property's "
+        "variogram, along and across the holes.",
+        {"terratet validate site.gpkg --plot site.svg",
+         "terratet validate --boreholes collar.csv --survey survey.csv --log assay.csv \\",
+         "  --property CU --estimator natural --estimator kriging:model=exponential"},
+        [] { return std::make_unique<Validate>(); }};
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "tess/error.hpp"
+#include "tools/options/command.hpp"
+#include "tools/options/text.hpp"
+
+namespace terratet::tools {
+
+const std::vector<CommandEntry>& commands() {
+    static const std::vector<CommandEntry> table{build_command(),    convert_command(),   export_command(),
+                                                 info_command(),     check_command(),     query_command(),
+                                                 validate_command(), completion_command()};
+    return table;
+}
+
+const CommandEntry& find_command(const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& entry : commands()) {
+        if (entry.name == name) {
+            return entry;
+        }
+        names.push_back(entry.name);
+    }
+    if (name.starts_with('-')) {
+        const std::string nearest = nearest_word(name, {"--help", "--version", "--json-usage"});
+        throw UsageError(fmt::format("unknown option {}{}; a command comes first: 'terratet help' lists them", name,
+                                     nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+    }
+    const std::string nearest = nearest_word(name, names);
+    throw UsageError(nearest.empty() ? fmt::format("unknown command '{}'; 'terratet help' lists them", name)
+                                     : fmt::format("unknown command '{}'; did you mean {}?", name, nearest));
+}
+
+}  // namespace terratet::tools

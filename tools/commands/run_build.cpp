@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/commands/run_build.hpp"
+
+#include <optional>
+
+#include <spdlog/spdlog.h>
+
+#include "tools/run/process.hpp"
+#include "tools/run/progress_display.hpp"
+#include "tools/report/report.hpp"
+
+namespace terratet::tools {
+int run_build(const std::string& command, const BuildArguments& a, const std::vector<Given>& given) {
+    const Stopwatch total;
+    check_before_reading(a.site, a.model, a.run);
+    check_export_arguments(a.exporting);
+    check_outputs(a.outputs, input_paths(a.site), a.exporting, a.run);
+
+    const ThreadLimit threads(a.run.threads);
+    BuildRecord build;
+    RunRecord record;
+    std::optional<LiveModel> live;
+    {
+        ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
+        const Progress progress = display.callback();
+        live.emplace(read_and_build(a.site, a.model, a.run, progress, build));
+        if (a.exporting.uncertainty) {
+            live->add_uncertainty();
+        }
+        const Stopwatch writing;
+        record.model = live->snapshot();
+        record.written =
+            write_outputs(*record.model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);
+        record.write_seconds = writing.seconds();
+    }
+    record.build = &build;
+    record.total_seconds = total.seconds();
+    write_report(record, a.run);
+    spdlog::info("{}", summary_text(record));
+    const std::uint64_t unmet = unmet_cells(build.report.refine);
+    if (a.run.strict && unmet > 0) {
+        spdlog::warn("terratet: {} cells do not meet the criteria, and --strict is given", unmet);
+        return exit_unmet;
+    }
+    return exit_done;
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/options/export_options.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "io/source.hpp"
+#include "tess/error.hpp"
+#include "tools/options/choice.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+    return text;
+}
+
+bool as_flag(const std::string& key, const std::string& value) {
+    return choose<bool>("-co " + key, upper(value),
+                        {{"YES", true}, {"NO", false}, {"TRUE", true}, {"FALSE", false}, {"ON", true}, {"OFF", false}});
+}
+
+/// One length for all axes, or three.
+Vec3 parse_voxel_size(const std::string& text, double metres_per_unit) {
+    std::vector<double> sizes;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        try {
+            sizes.push_back(parse_length(text.substr(begin, end - begin), metres_per_unit));
+        } catch (const UsageError& error) {
+            throw UsageError(fmt::format("--voxel-size: {}", error.what()));
+        }
+        if (!(sizes.back() > 0)) {
+            throw UsageError(fmt::format("--voxel-size: '{}' is not above 0", text));
+        }
+        begin = end + 1;
+    }
+    if (sizes.size() == 1) {
+        return {sizes[0], sizes[0], sizes[0]};
+    }
+    if (sizes.size() != 3) {
+        throw UsageError(fmt::format("--voxel-size: one length or three are needed, and {} are given", sizes.size()));
+    }
+    return {sizes[0], sizes[1], sizes[2]};
+}
+
+FaultGap fault_gap(const ExportArguments& a) {
+    return choose<FaultGap>("--fault-gap", a.fault_gap, {{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}});
+}
+
+}  // namespace
+
+std::vector<OptionGroup> export_options(ExportArguments& a) {
+    return {{"Outputs (by extension: .vtu, .glb, .gltf, .vdb, .csv)",
+             {
+                 {{"of"},
+                  "FORMAT",
+                  "instead of the extension's: VTU, GLTF, VDB, CSV; with it the output may be -, standard output",
+                  &a.format},
+                 {{"tr", "voxel-size"},
+                  "LENGTH[,LENGTH,LENGTH]",
+                  "of voxels; by default about a 128th of the longest side",
+                  &a.voxel_size,
+                  3},
+                 {{"clip"}, "", "VTU: cut the cells at the extent", &a.clip},
+                 {{"fault-gap"},
+                  "HOW",
+                  "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
+                  "fault, its nodes split",
+                  &a.fault_gap},
+                 {{"compress"}, "", "VTU: with zlib", &a.compress},
+                 {{"local-origin"},
+                  "",
+                  "VDB: coordinates from the model's origin, for Blender and Houdini",
+                  &a.local_origin},
+                 {{"uncertainty"},
+                  "",
+                  "with each property's standard deviation, 95 % half-width, extrapolation and number of samples; of a "
+                  "category "
+                  "the classes' probabilities and entropy",
+                  &a.uncertainty},
+                 {{"color"}, "PROPERTY", "glTF: what to colour by; the first by default", &a.color},
+                 {{"color-map"}, "NAME", "glTF: viridis by default", &a.color_map},
+                 {{"co"}, "KEY=VALUE", "the same as creation options: -co COMPRESS=YES", &a.creation_options},
+             }}};
+}
+
+ExportArguments with_creation_options(ExportArguments a) {
+    for (const auto& text : a.creation_options) {
+        const auto equals = text.find('=');
+        const std::string key = upper(text.substr(0, equals));
+        const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
+        if (value.empty()) {
+            throw UsageError(fmt::format("-co: '{}' is not KEY=VALUE", text));
+        }
+        if (key == "CLIP") {
+            a.clip = as_flag(key, value);
+        } else if (key == "COMPRESS") {
+            a.compress = as_flag(key, value);
+        } else if (key == "LOCAL_ORIGIN") {
+            a.local_origin = as_flag(key, value);
+        } else if (key == "FAULT_GAP") {
+            a.fault_gap = value;
+            std::transform(a.fault_gap.begin(), a.fault_gap.end(), a.fault_gap.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+        } else if (key == "VOXEL_SIZE") {
+            a.voxel_size = value;
+        } else if (key == "COLOR") {
+            a.color = value;
+        } else if (key == "COLOR_MAP") {
+            a.color_map = value;
+        } else {
+            throw UsageError(fmt::format(
+                "-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, FAULT_GAP, COLOR, COLOR_MAP", key));
+        }
+    }
+    a.creation_options.clear();
+    return a;
+}
+
+void check_export_arguments(const ExportArguments& arguments) {
+    const ExportArguments a = with_creation_options(arguments);
+    if (!a.voxel_size.empty()) {
+        parse_voxel_size(a.voxel_size, 1.0);
+    }
+    fault_gap(a);
+}
+
+ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {
+    const ExportArguments a = with_creation_options(arguments);
+    ExportOptions options;
+    options.format = a.format;
+    options.fault_gap = fault_gap(a);
+    options.clip = a.clip;
+    options.compress = a.compress;
+    options.local_origin = a.local_origin;
+    options.color_map = a.color_map;
+    if (!a.voxel_size.empty()) {
+        options.voxel_size = parse_voxel_size(a.voxel_size, model.frame.metres_per_unit);
+    }
+    if (!a.color.empty()) {
+        std::vector<std::pair<std::string, int>> known;
+        for (const auto& property : model.properties) {
+            known.emplace_back(property.name, 0);
+        }
+        choose("--color", a.color, known);
+        options.color_property = a.color;
+    }
+    return options;
+}
+
+}  // namespace terratet::tools

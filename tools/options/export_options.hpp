@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What to write: the options behind io/export.hpp.
+
+#include <string>
+#include <vector>
+
+#include "io/export.hpp"
+#include "tools/options/option.hpp"
+
+namespace terratet::tools {
+
+struct ExportArguments {
+    std::string format;
+    std::string voxel_size;
+    bool clip = false;
+    bool compress = false;
+    bool local_origin = false;
+    bool uncertainty = false;
+    std::string fault_gap = "keep";
+    std::string color;
+    std::string color_map = ExportOptions{}.color_map;
+    std::vector<std::string> creation_options;
+};
+
+std::vector<OptionGroup> export_options(ExportArguments& arguments);
+
+/// Creation options (-co COMPRESS=YES) put into their named twins (--compress). Throws UsageError for an unknown one.
+ExportArguments with_creation_options(ExportArguments arguments);
+
+/// Throws UsageError for what can be refused before there is a model.
+void check_export_arguments(const ExportArguments& arguments);
+
+/// Lengths in the unit of the model. Throws UsageError: also for a property to colour by that there is none of.
+ExportOptions writer_options(const ExportArguments& arguments, const Model& model);
+
+}  // namespace terratet::tools

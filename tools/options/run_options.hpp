@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// How to run: options that never change a result.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/options/option.hpp"
+
+namespace terratet::tools {
+
+struct RunArguments {
+    std::uint64_t threads = 0;  ///< 0: as many as there are cores
+    std::string config;
+    std::string report;
+    std::string progress = "auto";
+    bool overwrite = false;
+    bool strict = false;
+    bool quiet = false;
+};
+
+/// The title of the group: what the journal leaves out.
+inline constexpr const char* run_group = "Running";
+
+std::vector<OptionGroup> run_options(RunArguments& arguments);
+
+}  // namespace terratet::tools

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/options/site_options.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "interp/plan/composite.hpp"
+#include "io/base/crs.hpp"
+#include "io/read/read_table.hpp"
+#include "tess/error.hpp"
+#include "tess/property.hpp"
+#include "tools/options/choice.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::pair<std::string, std::string> parse_column(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+        throw UsageError(fmt::format("--columns: '{}' is not MEANING=COLUMN, such as id=WELL", text));
+    }
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// -where and its like name columns of one table: with several inputs each says its own.
+void apply_to_single_input(const SiteArguments& arguments, std::vector<Source*>& sources) {
+    if (arguments.layer.empty() && arguments.where.empty() && arguments.sql.empty()) {
+        return;
+    }
+    if (sources.size() != 1) {
+        const char* name = !arguments.layer.empty() ? "layer" : !arguments.where.empty() ? "where" : "sql";
+        throw UsageError(fmt::format("--{0} is for a single input; with several, say which: --log 'FILE,{0}=…'", name));
+    }
+    if (!arguments.layer.empty()) {
+        sources.front()->layer = arguments.layer;
+    }
+    if (!arguments.where.empty()) {
+        sources.front()->where = arguments.where;
+    }
+    if (!arguments.sql.empty()) {
+        sources.front()->sql = arguments.sql;
+    }
+}
+
+double composite_length(const std::string& text, double metres_per_unit) {
+    double length = 0;
+    try {
+        length = parse_length(text, metres_per_unit);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("--composite: {}", error.what()));
+    }
+    if (!(length > 0)) {
+        throw UsageError(fmt::format("--composite: '{}' is not above 0", text));
+    }
+    return length;
+}
+
+void parse_azimuth(const std::string& text, SiteInputs& inputs) {
+    if (const std::string magnetic = "magnetic:"; text.starts_with(magnetic)) {
+        const auto declination = parse_number(text.substr(magnetic.size()));
+        if (!declination || std::abs(*declination) > 180) {
+            throw UsageError(
+                fmt::format("--azimuth: '{}' carries no declination in degrees, as in magnetic:-7.5", text));
+        }
+        inputs.azimuth = AzimuthReference::magnetic;
+        inputs.declination_deg = *declination;
+    } else if (text == "grid" || text == "true") {
+        inputs.azimuth = text == "grid" ? AzimuthReference::grid : AzimuthReference::true_north;
+    } else {
+        throw UsageError(fmt::format("--azimuth: '{}' is not one of grid, true, magnetic:DEGREES", text));
+    }
+}
+
+}  // namespace
+
+std::vector<OptionGroup> site_options(SiteArguments& a) {
+    return {
+        {"Inputs (FILE is anything GDAL opens, as FILE[,layer=L][,srs=CRS][,where=SQL])",
+         {
+             {{"boreholes"}, "FILE", "collar table: hole, x, y, z", &a.boreholes},
+             {{"survey"}, "FILE", "hole, depth, azimuth, dip; without it holes are vertical", &a.surveys},
+             {{"log"}, "FILE", "values along holes: hole, from, to (or depth), properties", &a.logs},
+             {{"samples"}, "FILE", "loose points: x, y, z, properties", &a.samples},
+             {{"faults"}, "FILE", "GOCAD TSurf, TIN or triangles, or points x, y, z, fault", &a.faults},
+             {{"surface"},
+              "FILE",
+              "a horizon, as a fault or a raster: it parts regions, and bars what --horizon says",
+              &a.surfaces},
+             {{"topography"}, "FILE", "the ground, a raster mostly: nothing is modelled above it", &a.topography},
+             {{"domain"}, "FILE", "a polygon in plan: nothing is modelled outside it", &a.domain},
+         }},
+        {"What they mean",
+         {
+             {{"property"},
+              "NAME[:log10][:categorical][:unit=U]",
+              "what to model; every numeric column by default",
+              &a.properties},
+             {{"columns"},
+              "MEANING=COLUMN",
+              "a column not found by its name: id, x, y, z, from, to, depth, azimuth, dip, length, name",
+              &a.columns},
+             {{"s_srs", "source-crs"}, "CRS", "of the inputs that carry none", &a.source_crs},
+             {{"t_srs", "target-crs"}, "CRS", "of the model: the first projected one by default", &a.target_crs},
+             {{"desurvey"}, "HOW", "minimum-curvature (default), tangential, balanced-tangential", &a.desurvey},
+             {{"dip-convention"},
+              "HOW",
+              "auto (default), down-positive, down-negative, inclination",
+              &a.dip_convention},
+             {{"azimuth"}, "FROM", "grid (default), true, or magnetic:DECLINATION", &a.azimuth},
+             {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
+             {{"z-scale"},
+              "K",
+              "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged; by default 1, "
+              "more for "
+              "data flatter than 10 : 1",
+              &a.z_scale},
+             {{"composite"}, "LENGTH", "bring logs to intervals of this length before all else", &a.composite},
+             {{"layer"}, "NAME", "layer of a single input", &a.layer},
+             {{"where"}, "SQL", "which rows of a single input", &a.where},
+             {{"sql"}, "SQL", "a statement instead of a layer, for a single input", &a.sql},
+             {{"oo"}, "KEY=VALUE", "open option for GDAL's driver", &a.open_options},
+         }},
+    };
+}
+
+ColumnNames column_names(const std::vector<std::string>& texts) {
+    ColumnNames names;
+    for (const auto& text : texts) {
+        names.push_back(parse_column(text));
+    }
+    return names;
+}
+
+SiteInputs site_inputs(const SiteArguments& a, bool strict) {
+    SiteInputs inputs;
+    std::vector<Source*> all;
+    const auto add = [&](const std::vector<std::string>& texts, std::vector<Source>& sources) {
+        for (const auto& text : texts) {
+            Source source = parse_source(text);
+            source.open_options.insert(source.open_options.end(), a.open_options.begin(), a.open_options.end());
+            sources.push_back(std::move(source));
+        }
+    };
+    add(a.boreholes, inputs.boreholes);
+    add(a.surveys, inputs.surveys);
+    add(a.logs, inputs.logs);
+    add(a.samples, inputs.samples);
+    add(a.faults, inputs.faults);
+    add(a.surfaces, inputs.surfaces);
+    add(a.topography, inputs.topography);
+    add(a.domain.empty() ? std::vector<std::string>{} : std::vector{a.domain}, inputs.domain);
+    for (auto* sources : {&inputs.boreholes, &inputs.surveys, &inputs.logs, &inputs.samples, &inputs.faults,
+                          &inputs.surfaces, &inputs.topography, &inputs.domain}) {
+        for (auto& source : *sources) {
+            all.push_back(&source);
+        }
+    }
+    if (all.empty()) {
+        throw UsageError("no input: give --boreholes with --log, or --samples");
+    }
+    if (!inputs.logs.empty() && inputs.boreholes.empty()) {
+        throw UsageError("--log needs the holes' collars: give --boreholes");
+    }
+    if (!inputs.surveys.empty() && inputs.boreholes.empty()) {
+        throw UsageError("--survey needs the holes' collars: give --boreholes");
+    }
+    apply_to_single_input(a, all);
+
+    for (const auto& crs : {a.source_crs, a.target_crs}) {
+        if (!crs.empty()) {
+            parse_crs(crs);  // refused before anything is read
+        }
+    }
+    inputs.source_crs = a.source_crs;
+    inputs.target_crs = a.target_crs;
+    for (const auto& property : a.properties) {
+        parse_property(property);
+    }
+    inputs.properties = a.properties;
+    inputs.columns = column_names(a.columns);
+    inputs.desurvey = choose<Desurvey>("--desurvey", a.desurvey,
+                                       {{"minimum-curvature", Desurvey::minimum_curvature},
+                                        {"tangential", Desurvey::tangential},
+                                        {"balanced-tangential", Desurvey::balanced_tangential}});
+    inputs.dip = choose<DipConvention>("--dip-convention", a.dip_convention,
+                                       {{"auto", DipConvention::automatic},
+                                        {"down-positive", DipConvention::down_positive},
+                                        {"down-negative", DipConvention::down_negative},
+                                        {"inclination", DipConvention::inclination}});
+    parse_azimuth(a.azimuth, inputs);
+    if (!a.depth_unit.empty()) {
+        parse_length("1" + a.depth_unit, 1.0);
+    }
+    inputs.depth_unit = a.depth_unit;
+    if (!a.composite.empty()) {
+        composite_length(a.composite, 1.0);
+    }
+    if (!a.z_scale.empty()) {
+        inputs.z_scale = parse_number(a.z_scale).value_or(0);
+        if (!(inputs.z_scale >= 1e-3 && inputs.z_scale <= 1e3)) {
+            throw UsageError(fmt::format("--z-scale: '{}' is not a number between 0.001 and 1000", a.z_scale));
+        }
+    }
+    inputs.strict = strict;
+    return inputs;
+}
+
+void composite_as_asked(Site& site, const SiteArguments& a, Diagnostics& diagnostics) {
+    if (a.composite.empty()) {
+        return;
+    }
+    const CompositeReport report = composite(site, composite_length(a.composite, site.frame.metres_per_unit));
+    diagnostics.note(
+        fmt::format("{} intervals are composited into {} of {}; {} values over less than half of one are "
+                    "left out",
+                    report.intervals, report.composites, a.composite, report.dropped));
+}
+
+std::vector<std::string> input_paths(const SiteArguments& a) {
+    std::vector<std::string> paths;
+    for (const auto* list : {&a.boreholes, &a.surveys, &a.logs, &a.samples, &a.faults, &a.surfaces, &a.topography}) {
+        paths.insert(paths.end(), list->begin(), list->end());
+    }
+    if (!a.domain.empty()) {
+        paths.push_back(a.domain);
+    }
+    return paths;
+}
+
+}  // namespace terratet::tools

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// What to read: the options behind io/read_site.hpp.
+
+#include <string>
+#include <vector>
+
+#include "io/read_site.hpp"
+#include "io/read/read_table.hpp"
+#include "tools/options/option.hpp"
+
+namespace terratet::tools {
+
+struct SiteArguments {
+    std::vector<std::string> boreholes;
+    std::vector<std::string> surveys;
+    std::vector<std::string> logs;
+    std::vector<std::string> samples;
+    std::vector<std::string> faults;
+    std::vector<std::string> surfaces;
+    std::vector<std::string> topography;
+    std::string domain;
+    std::vector<std::string> properties;
+    std::vector<std::string> columns;
+    std::string source_crs;
+    std::string target_crs;
+    std::string desurvey = "minimum-curvature";
+    std::string dip_convention = "auto";
+    std::string azimuth = "grid";
+    std::string depth_unit;
+    std::string composite;
+    std::string z_scale;  ///< empty: chosen for flat data
+    std::string layer;
+    std::string where;
+    std::string sql;
+    std::vector<std::string> open_options;
+};
+
+std::vector<OptionGroup> site_options(SiteArguments& arguments);
+
+/// Of --columns MEANING=COLUMN. Throws UsageError.
+ColumnNames column_names(const std::vector<std::string>& texts);
+
+/// Throws UsageError: no input at all, a word that is no choice, --layer, --where or --sql with several inputs.
+SiteInputs site_inputs(const SiteArguments& arguments, bool strict);
+
+/// All files that are named as inputs, as they were given.
+std::vector<std::string> input_paths(const SiteArguments& arguments);
+
+/// Composites the logs if --composite asks for it (interp/plan/composite.hpp), and notes what came of it. Throws UsageError
+/// for what is no length above 0.
+void composite_as_asked(Site& site, const SiteArguments& arguments, Diagnostics& diagnostics);
+
+}  // namespace terratet::tools

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "tools/options/printable.hpp"
+#include "tools/report/report.hpp"
+#include "tools/options/text.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::string counted(std::uint64_t number, const std::string& thing) {
+    return grouped(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
+std::string line(const char* what, const std::string& text) {
+    return fmt::format("{:10}{}\n", what, wrapped(printable(text), 10, 10, 100));
+}
+
+/// What of a clipped mesh is worse than it should be, and why.
+std::string clipped_text(const ClippedShapes& shapes) {
+    std::string text = fmt::format("cut at the extent: {}, dihedral angles from {:.1f}°, 1 % below {:.1f}°",
+                                   counted(shapes.cells, "cell"), shapes.dihedral_min_deg, shapes.dihedral_p1_deg);
+    if (shapes.below_10_deg + shapes.short_edges == 0) {
+        return text;
+    }
+    text += fmt::format("; {} below 1°, {} below 10°, {} with an edge below --lmin/10:", grouped(shapes.below_1_deg),
+                        grouped(shapes.below_10_deg), grouped(shapes.short_edges));
+    const char* separator = " ";
+    for (const auto& [count, where] : {std::pair{shapes.at_sample, "at samples"},
+                                       {shapes.at_fault, "at faults, ground or walls"},
+                                       {shapes.as_tessellated, "as in the model"},
+                                       {shapes.other, "elsewhere"}}) {
+        if (count > 0) {
+            text += fmt::format("{}{} {}", separator, grouped(count), where);
+            separator = ", ";
+        }
+    }
+    return text;
+}
+
+std::string input_lines(const BuildRecord& build) {
+    std::string out =
+        line("Read", fmt::format("{}, {}, {}", counted(build.counts.boreholes, "borehole"),
+                                 counted(build.counts.samples, "sample"), counted(build.counts.faults, "fault")));
+    constexpr std::size_t shown = 5;
+    const auto& rejected = build.diagnostics.rejected;
+    if (!rejected.empty()) {
+        out += line("Rejected", counted(rejected.size(), "record") + (rejected.size() > shown ? ", the first:" : ":"));
+    }
+    for (std::size_t i = 0; i < std::min(shown, rejected.size()); ++i) {
+        const auto& record = rejected[i];
+        out += line("", record.line > 0 ? fmt::format("{}:{}: {}", record.file, record.line, record.reason)
+                                        : fmt::format("{}: {}", record.file, record.reason));
+    }
+    for (const auto& note : build.diagnostics.notes) {
+        out += line("Note", note);
+    }
+    return out;
+}
+
+std::string volume_text(double volume, const std::string& unit) {
+    return volume >= 1e6 ? fmt::format("{:.3g} M {}³", volume / 1e6, unit) : fmt::format("{:.3g} {}³", volume, unit);
+}
+
+/// A block that no sample can be seen from.
+std::string empty_block_text(const EmptyBlock& block, const std::string& unit) {
+    std::string properties;
+    for (const auto& name : block.properties) {
+        properties += (properties.empty() ? "" : ", ") + name;
+    }
+    const bool named = block.name != fmt::format("region {}", block.region);
+    return fmt::format("Block {}{} ({}) holds no sample{}: no values there", block.region,
+                       named ? ", " + block.name : "", volume_text(block.volume, unit),
+                       block.of_all ? "" : " of " + properties);
+}
+
+std::string build_lines(const BuildRecord& build, const Model& model) {
+    const BuildReport& report = build.report;
+    const char* unit = model.frame.unit == "metre" ? "m" : model.frame.unit.c_str();
+    std::string out;
+    if (!build.defaults.empty()) {
+        std::string chosen;
+        for (const auto& [option, value] : build.defaults) {
+            chosen += fmt::format("{}--{} {}", chosen.empty() ? "" : "  ", option, value);
+        }
+        out += line("Defaults", chosen);
+    }
+    out += line("Kept", fmt::format("{} of {}: {} too near another, {} near faults, {} outside, {} coincident",
+                                    grouped(report.density.kept.size()), counted(build.counts.samples, "sample"),
+                                    grouped(report.density.deleted), grouped(report.density.near_faults.size()),
+                                    grouped(report.outside_extent), grouped(report.coincident)));
+    for (const auto& fault : report.faults) {
+        out += line("Fault", fault.used ? fmt::format("{}: {}{}", fault.name, counted(fault.seeds, "seed"),
+                                                      fault.reason.empty() ? "" : "; " + fault.reason)
+                                        : fmt::format("{}: not used: {}", fault.name, fault.reason));
+    }
+    out += line("Initial",
+                fmt::format("{} vertices, {} tetrahedra; {:.1f} % skinny, {:.1f} % flat, {:.1f} % bad",
+                            grouped(report.initial.vertices), grouped(report.initial.tetrahedra),
+                            report.initial.skinny_percent, report.initial.flat_percent, report.initial.bad_percent));
+    std::string left;
+    for (const auto& [reason, cells] : report.refine.skipped) {
+        left += fmt::format("{}{} {}", left.empty() ? "; left as they are: " : ", ", grouped(cells), to_string(reason));
+    }
+    out += line("Refined", fmt::format("{} vertices inserted (at most {:.3g} can be), {} moved, {} removed{}",
+                                       grouped(report.refine.inserted), report.refine.bound,
+                                       grouped(report.refine.moved), grouped(report.refine.removed), left));
+    const CellStatistics& cells = report.final;
+    out +=
+        line("Final", fmt::format("{} vertices, {} tetrahedra; {:.1f} % skinny, {:.1f} % flat, {:.1f} % bad; dihedral "
+                                  "angles from {:.1f}° (1 %: {:.1f}°); edges {:.4g} to {:.4g} {}; {}; {} across faults",
+                                  grouped(cells.vertices), grouped(cells.tetrahedra), cells.skinny_percent,
+                                  cells.flat_percent, cells.bad_percent, cells.dihedral_min_deg, cells.dihedral_p1_deg,
+                                  cells.edge_min, cells.edge_max, unit, counted(cells.regions, "region"),
+                                  counted(report.fault_crossing_edges, "edge")));
+    for (const EmptyBlock& block : report.empty_blocks) {
+        out += line("Note", empty_block_text(block, unit));
+    }
+    for (std::size_t p = 0; p < report.fidelity.size(); ++p) {
+        const auto& property = model.properties[p];
+        const auto& fit = report.fidelity[p];
+        out += line("Fidelity",
+                    fmt::format("{}: rms {:.3g}, largest {:.3g}{} at {}", property.name, fit.rms, fit.max,
+                                property.scale == Scale::log10 ? " decades" : "", counted(fit.count, "sample")));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string summary_text(const RunRecord& record) {
+    std::string out;
+    if (record.build != nullptr) {
+        out += input_lines(*record.build);
+    }
+    const Frame& frame = record.model->model().frame;
+    out += line("Frame", fmt::format("{}, unit {}", frame.crs_name.empty() ? "local" : frame.crs_name, frame.unit));
+    if (record.build != nullptr) {
+        out += build_lines(*record.build, record.model->model());
+    }
+    if (record.written.collapse) {
+        const CollapseReport& collapse = *record.written.collapse;
+        const std::size_t left = collapse.apart.size() + collapse.aside.size();
+        out += line(
+            "Collapsed",
+            fmt::format("{}; {} on the faults are split; each of {} has its twin{}{}",
+                        counted(collapse.dropped_cells, "gap cell"), counted(collapse.split_places, "place"),
+                        counted(collapse.conformity.mirrored_facets, "facet"),
+                        left == 0 ? "" : fmt::format("; {} left open, see the report", counted(left, "place")),
+                        collapse.conformity.leaking == 0 ? ""
+                                                         : fmt::format("; {} between regions not split",
+                                                                       counted(collapse.conformity.leaking, "facet"))));
+    }
+    for (const auto& output : record.written.outputs) {
+        out += line("Wrote", fmt::format("{} ({})", output.path, byte_size(output.bytes)));
+        if (output.clipped) {
+            out += line("", clipped_text(*output.clipped));
+        }
+    }
+    return out + fmt::format("{:10}{:.2f} s", "Time", record.total_seconds);
+}
+
+}  // namespace terratet::tools

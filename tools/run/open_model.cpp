@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/run/open_model.hpp"
+
+#include <fmt/format.h>
+
+#include "interp/estimator_plan.hpp"
+#include "interp/plan/model_source.hpp"
+#include "io/model_store.hpp"
+#include "tess/error.hpp"
+
+namespace terratet::tools {
+
+Option accept_edited_option(bool& accept_edited) {
+    return {{"accept-edited"},
+            "",
+            "of a model that another program edited on purpose: verify all that check verifies instead of its digest",
+            &accept_edited};
+}
+
+std::vector<Verdict> verdicts_on(const Model& model, const Progress& progress) {
+    const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of, const FaultProximity& faults) {
+        return make_model_source(of, faults, plan);
+    };
+    return verify(model, factory, progress);
+}
+
+Model open_model(const std::string& path, bool accept_edited, const Progress& progress) {
+    Model model = load_model(path, {.accept_edited = accept_edited});
+    if (accept_edited) {
+        for (const Verdict& verdict : verdicts_on(model, progress)) {
+            if (!verdict.holds) {
+                throw InputError(fmt::format("{}: was edited, and does not keep {} any more: {}{}", path,
+                                             verdict.guarantee, verdict.statement,
+                                             verdict.detail.empty() ? "" : " (" + verdict.detail + ")"));
+            }
+        }
+    }
+    return model;
+}
+
+}  // namespace terratet::tools

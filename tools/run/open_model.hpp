@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// How every command opens a stored model.
+
+#include <string>
+#include <vector>
+
+#include "tess/model.hpp"
+#include "tess/progress.hpp"
+#include "tess/verify.hpp"
+#include "tools/options/option.hpp"
+
+namespace terratet::tools {
+
+/// --accept-edited, for all commands that open a model.
+Option accept_edited_option(bool& accept_edited);
+
+/// Loads the model. One that was edited is verified instead of told by its digest. Throws InputError as load_model
+/// does, and naming what does not hold.
+Model open_model(const std::string& path, bool accept_edited, const Progress& progress = {});
+
+/// Each guarantee, with the model's own estimator.
+std::vector<Verdict> verdicts_on(const Model& model, const Progress& progress);
+
+}  // namespace terratet::tools

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/run/outputs.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/base/output_file.hpp"
+#include "io/source.hpp"
+#include "tess/error.hpp"
+#include "tools/run/process.hpp"
+
+namespace terratet::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code error;
+    return a == b || fs::equivalent(a, b, error) ||
+           fs::weakly_canonical(fs::absolute(a), error) ==
+               fs::weakly_canonical(fs::absolute(b), error);  // neither need exist
+}
+
+/// Calls `write`, and says of what goes wrong in a library which output it was for.
+template <class Write>
+void write_named(const std::string& path, const Write& write) {
+    try {
+        write();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw Error(fmt::format("cannot write {}: {}", path, out_of_memory));
+    } catch (const std::exception& error) {
+        throw Error(
+            fmt::format("cannot write {}: a library failed ({}); please report it, with the command and its "
+                        "inputs",
+                        path, error.what()));
+    }
+}
+
+/// Rethrows the current exception with the outputs that stand already.
+[[noreturn]] void rethrow_naming(const std::vector<OutputRecord>& written) {
+    if (written.empty()) {
+        throw;
+    }
+    std::string names;
+    for (const auto& record : written) {
+        names += (names.empty() ? "" : ", ") + record.path;
+    }
+    try {
+        throw;
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}; written before it: {}", error.what(), names));
+    } catch (const Cancelled&) {
+        throw Error(fmt::format("interrupted; written before it: {}", names));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}; written before it: {}", error.what(), names));
+    }
+}
+
+std::time_t now() {
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+        const std::string text = epoch;
+        std::time_t seconds = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+        if (error != std::errc() || end != text.data() + text.size() || text.empty()) {
+            throw UsageError(fmt::format("SOURCE_DATE_EPOCH: '{}' is not a number of seconds", text));
+        }
+        return seconds;
+    }
+    return std::time(nullptr);
+}
+
+constexpr const char* standard_output = "-";
+
+/// A folder of its own among the temporary ones, gone with all in it at the end.
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "terratet-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw Error(fmt::format("cannot make a temporary folder in {}", fs::temp_directory_path().string()));
+        }
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+/// By way of a file, so that nothing goes out unless all of it is there.
+OutputRecord export_to_standard_output(const ModelSnapshot& model, const ExportOptions& options) {
+    const ScratchFolder scratch;
+    std::string extension = options.format;
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    OutputRecord record = export_model(model, (scratch.path() / ("output." + extension)).string(), options);
+    std::ifstream file(record.path, std::ios::binary);
+    std::vector<char> block(1 << 20);
+    while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
+        write_to_standard_output({block.data(), static_cast<std::size_t>(file.gcount())});
+    }
+    record.path = standard_output;
+    return record;
+}
+
+}  // namespace
+
+bool names_model(const std::string& path) {
+    return path.ends_with(".gpkg") || path.starts_with("PG:");
+}
+
+void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
+                   const ExportArguments& arguments, const RunArguments& run) {
+    for (const auto& path : paths) {
+        if (!names_model(path)) {
+            output_format(path, arguments.format);
+        }
+    }
+    if (run.report == standard_output && std::ranges::find(paths, standard_output) != paths.end()) {
+        throw UsageError("-: standard output cannot take an output and the report");
+    }
+    check_places(paths, inputs, run);
+}
+
+void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run) {
+    if (!run.report.empty() && run.report != standard_output) {
+        paths.push_back(run.report);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto& path = paths[i];
+        for (std::size_t j = 0; j < i; ++j) {
+            if (path == paths[j] || same_file(path, paths[j])) {
+                throw UsageError(fmt::format("{}: given twice as an output", path));
+            }
+        }
+        if (path == standard_output) {
+            continue;
+        }
+        const auto is_input = [&](const std::string& input) { return same_file(path, parse_source(input).path); };
+        if (std::any_of(inputs.begin(), inputs.end(), is_input) ||
+            (!run.config.empty() && same_file(path, run.config))) {
+            throw UsageError(fmt::format("{}: is an input; an output cannot replace it", path));
+        }
+        if (!path.starts_with("PG:")) {
+            require_writable(path, run.overwrite);
+        }
+    }
+}
+
+Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& paths,
+                      const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
+                      const Progress& progress) {
+    ExportOptions options = writer_options(arguments, model.model());
+    options.overwrite = run.overwrite;
+    options.progress = progress;
+    Written written;
+    const auto write_output = [&](const std::string& path) {
+        if (names_model(path)) {
+            save_model(path, model.model(), entry, run.overwrite);
+            std::error_code no_file;
+            const auto bytes = fs::file_size(path, no_file);
+            written.outputs.push_back({path, no_file ? 0 : bytes});
+            return;
+        }
+        written.outputs.push_back(path == standard_output ? export_to_standard_output(model, options)
+                                                          : export_model(model, path, options));
+        const auto which = collapsing(model.model(), output_format(path, arguments.format), options.fault_gap);
+        if (which && (which == Collapsing::all || !written.collapse)) {
+            written.collapse = model.collapsed(*which).report;
+        }
+    };
+    for (const auto& path : paths) {
+        try {
+            report_progress(progress, "write",
+                            static_cast<double>(written.outputs.size()) / static_cast<double>(paths.size()));
+            write_named(path, [&] { write_output(path); });
+        } catch (...) {
+            rethrow_naming(written.outputs);
+        }
+    }
+    return written;
+}
+
+JournalEntry journal_entry(const std::string& command, const std::vector<Given>& given) {
+    nlohmann::ordered_json arguments = nlohmann::ordered_json::object();
+    for (const auto& option : given) {
+        if (option.group != run_group) {
+            arguments[option.name] = option.values;
+        }
+    }
+    return {0, fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now())), command,
+            arguments.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};
+}
+
+}  // namespace terratet::tools

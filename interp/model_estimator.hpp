@@ -58,14 +58,14 @@ class ModelEstimator {
     /// Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive this.
     /// What `plan` leaves open is fitted to each property's samples, and with options.uncertainty the calibrations that
     /// it lacks are found (plan() tells).
-    ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
+    ModelEstimator(const Model& model, const BarrierQuery& barriers, const EstimatorPlan& plan,
                    std::shared_ptr<EstimatorCounters> counters = {}, const ModelEstimatorOptions& options = {});
     ~ModelEstimator();
 
-    /// Values only, the refiner's way. In each property's scale; a category gets the class of the largest summed weight
-    /// (ties: the smaller index). A query exactly on a sample returns its value. The extrapolation is the largest among
-    /// the properties that have a value there, 1 where none has. Parallel (TBB); results do not depend on it, nor on
-    /// the batch.
+    /// Values only, the refiner's way. In each property's measured unit; a category gets the class of the largest
+    /// summed weight (ties: the smaller index). A query exactly on a sample returns its value. The extrapolation is the
+    /// largest among the properties that have a value there, 1 where none has. Parallel (TBB); results do not depend on
+    /// it, nor on the batch.
     [[nodiscard]] ValueBatch values(std::span<const ValueQuery> queries) const;
 
     /// Everything, one entry a property of the model; a property without samples has no values. Deviations are unknown

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "interp/model_estimator.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/build.hpp"
 #include "tess/collapse.hpp"
-#include "tess/barrier_query.hpp"
 
 namespace terratet {
 
@@ -30,7 +30,7 @@ class ModelSnapshot {
     ModelSnapshot& operator=(const ModelSnapshot&) = delete;
 
     [[nodiscard]] const Model& model() const;
-    [[nodiscard]] const FaultProximity& barriers() const;
+    [[nodiscard]] const BarrierQuery& barriers() const;
     [[nodiscard]] const TetMesh& mesh() const;
     [[nodiscard]] const CellTable& cells() const;
 
@@ -49,8 +49,8 @@ class ModelSnapshot {
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const;
 
-    /// What the estimator knows about its values becomes further properties of the vertices (interp/plan/uncertainty.hpp).
-    /// \pre Nobody else has the snapshot yet.
+    /// What the estimator knows about its values becomes further properties of the vertices
+    /// (interp/plan/uncertainty.hpp). \pre Nobody else has the snapshot yet.
     void add_uncertainty();
 
   private:

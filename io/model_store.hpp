@@ -26,8 +26,8 @@ struct JournalEntry {
 /// Writes a new model. `path` may be a PG: connection string; the layers then go to its active schema. Throws Error
 /// when the model exists and `overwrite` is false, when a text is not UTF-8, or when writing fails (nothing is left;
 /// what was there before stays). About 10 µs a vertex. \pre Every position is snapped (Frame::snapped); classes are
-/// distinct; indices are in range; prepared faults' sheets and
-///      margins are of kind fault; vertices of role domain and inserted have owner −1.
+/// distinct; indices are in range; a barrier's sheet
+///      and margin are of one kind; vertices of role domain and inserted have owner −1.
 void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite = false);
 
 struct LoadOptions {

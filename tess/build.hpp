@@ -9,9 +9,9 @@
 #include <memory>
 #include <optional>
 
+#include "tess/barrier_query.hpp"
 #include "tess/build_options.hpp"
 #include "tess/cells.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/progress.hpp"
 #include "tess/value_source.hpp"
 
@@ -20,7 +20,7 @@ namespace terratet {
 /// A model with what is made of it on the way. The barriers look at the model, so it stays where it is.
 struct TessellatedModel {
     Model model;
-    std::optional<FaultProximity> barriers;  ///< model_proximity(model)
+    std::optional<BarrierQuery> barriers;  ///< model_proximity(model)
     Tessellation tessellation;
     TetMesh mesh;
     CellTable cells;
@@ -28,7 +28,7 @@ struct TessellatedModel {
 
 /// Makes the estimator once samples are merged and faults are prepared: it sees the site's samples and the faults'
 /// sheets, in frame-local coordinates; both stay where they are, in the model that is returned.
-using ValueSourceFactory = std::function<ValueSource(const Model& model, const FaultProximity& faults)>;
+using ValueSourceFactory = std::function<ValueSource(const Model& model, const BarrierQuery& barriers)>;
 
 /// Builds. Throws InputError when the site has no sample and no extent is given (nothing to build), Error when a bound
 /// is exceeded, UsageError when the criteria ask for more than refine.max_vertices, before any is made, when the point

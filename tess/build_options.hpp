@@ -24,7 +24,7 @@ struct BuildOptions {
     Criteria criteria;  ///< l_min 0: the data's diagonal/100, those far off left out (site_box.hpp); l_max 0: 4 l_min
     DensityMode density = DensityMode::canonical;
     std::vector<RegionName> region_names;  ///< points frame-local
-    FaultOptions faults;
+    BarrierOptions barriers;
     bool separate_faults = false;  ///< faults that run side by side and nowhere meet lower the spacing where affordable
     RefineOptions refine;
     bool refine_enabled = true;  ///< false stops after the initial tessellation
@@ -35,7 +35,7 @@ struct BuildReport {
     std::size_t coincident = 0;      ///< samples merged
     std::size_t outside_extent = 0;  ///< samples beyond a given extent: they feed the estimator only
     DensityResult density;
-    std::vector<FaultAccount> faults;
+    std::vector<BarrierAccount> barriers;
     std::size_t seeds = 0;
     std::size_t domain_vertices = 0;
     CellStatistics initial;

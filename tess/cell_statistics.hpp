@@ -34,7 +34,7 @@ struct CellStatistics {
 };
 
 CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells,
-                               const FaultProximity& barriers);
+                               const BarrierQuery& barriers);
 
 /// A region without values: of no property, or of these.
 struct EmptyBlock {

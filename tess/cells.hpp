@@ -24,10 +24,10 @@ struct CellTable : CellRegions {
 };
 
 /// All but the reasons. O(n). `mesh` and `barriers` are the model's own.
-CellTable measure_cells(const Model& model, const TetMesh& mesh, const FaultProximity& barriers);
+CellTable measure_cells(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers);
 
 /// All. O(n), two to three times as long.
-CellTable describe_cells(const Model& model, const TetMesh& mesh, const FaultProximity& barriers);
+CellTable describe_cells(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers);
 
 /// The same; the barriers' queries are made for it alone.
 CellTable describe_cells(const Model& model, const TetMesh& mesh);

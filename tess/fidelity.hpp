@@ -19,6 +19,6 @@ struct Fidelity {
     std::size_t count = 0;
 };
 std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh,
-                               const FaultProximity& barriers);  ///< one per property
+                               const BarrierQuery& barriers);  ///< one per property
 
 }  // namespace terratet

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "tess/barrier.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/criteria.hpp"
 #include "tess/density.hpp"
 #include "tess/domain.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/site.hpp"
 #include "tess/tessellation.hpp"
 
@@ -29,12 +29,12 @@ struct Model : Site {
     Domain domain;
     Criteria criteria;
     DensityMode density = DensityMode::canonical;
-    FaultOptions fault_options;
+    BarrierOptions barrier_options;
     std::vector<RegionName> region_names;
-    std::vector<Fault> faults;     ///< prepared from the surfaces of kind fault
-    std::vector<Vertex> vertices;  ///< ascending id
-    VertexValues vertex_values;    ///< in step with vertices
-    std::string estimator;         ///< its full specification, e.g. "idw:power=2:max_points=12"
+    std::vector<Barrier> barriers;  ///< prepared from the surfaces: faults, horizons, the ground, walls
+    std::vector<Vertex> vertices;   ///< ascending id
+    VertexValues vertex_values;     ///< in step with vertices
+    std::string estimator;          ///< its full specification, e.g. "idw:power=2:max_points=12"
 };
 
 /// The tessellation of a model's vertices.
@@ -42,6 +42,6 @@ Tessellation tessellate(const Model& model);
 
 /// A model's barriers with all that bars the estimation of its properties: they go on beyond the extent, and horizons
 /// bar where they are hard. \pre The model outlives it.
-FaultProximity model_proximity(const Model& model);
+BarrierQuery model_proximity(const Model& model);
 
 }  // namespace terratet

@@ -16,9 +16,9 @@ namespace terratet {
 
 /// Where values are wanted. A place on a fault is asked for on one of its sides.
 struct ValueQuery {
-    Vec3 position;            ///< frame-local
-    std::int32_t fault = -1;  ///< the fault whose seed this is, or -1
-    std::int8_t side = 0;     ///< +1 or −1 for a seed: its side of that fault; 0 otherwise
+    Vec3 position;              ///< frame-local
+    std::int32_t barrier = -1;  ///< the fault whose seed this is, or -1
+    std::int8_t side = 0;       ///< +1 or −1 for a seed: its side of that fault; 0 otherwise
 };
 
 /// Values at places: values[property][query] in measured units, NaN where there is none; extrapolation[query] in 0…1.

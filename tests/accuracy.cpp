@@ -7,8 +7,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "tess/error.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/error.hpp"
 #include "tess/mesh/mesh_walk.hpp"
 #include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
@@ -102,7 +102,7 @@ AnalyticSite raised_zone(double scale, int wells) {
 
 MeshField adaptive(const AnalyticSite& site, BuildReport& report) {
     // A seed stands on its side of the fault, half the gap away: its place tells which formula holds.
-    const ValueSourceFactory factory = [&site](const Model&, const FaultProximity&) -> ValueSource {
+    const ValueSourceFactory factory = [&site](const Model&, const BarrierQuery&) -> ValueSource {
         return [&site](std::span<const ValueQuery> queries) {
             ValueBatch batch{{std::vector<double>(queries.size())}, std::vector<double>(queries.size(), 0)};
             for (std::size_t i = 0; i < queries.size(); ++i) {

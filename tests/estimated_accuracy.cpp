@@ -10,11 +10,11 @@ namespace terratet::testing {
 EstimatedSite::EstimatedSite(const AnalyticSite& site, const std::string& estimator) {
     const EstimatorPlan plan = parse_estimator_plan(estimator);
     BuildReport report;
-    const auto factory = [&](const Model& model, const FaultProximity& faults) {
+    const auto factory = [&](const Model& model, const BarrierQuery& faults) {
         return make_model_source(model, faults, plan);
     };
     model_ = std::make_unique<Model>(std::move(build(site.site, site.options, factory, report)->model));
-    faults_ = std::make_unique<FaultProximity>(model_->faults);
+    faults_ = std::make_unique<BarrierQuery>(model_->barriers);
     source_ = make_model_source(*model_, *faults_, plan);
 }
 

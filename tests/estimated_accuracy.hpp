@@ -28,7 +28,7 @@ class EstimatedSite {
 
   private:
     std::unique_ptr<Model> model_;
-    std::unique_ptr<FaultProximity> faults_;
+    std::unique_ptr<BarrierQuery> faults_;
     ValueSource source_;
 };
 

@@ -92,7 +92,7 @@ struct GridModel {
             }
             model.boreholes.push_back(hole);
         }
-        Fault fault;
+        Barrier fault;
         fault.name = "BFZ \"100\"";
         fault.width = gap;
         fault.spacing = 42;
@@ -112,7 +112,7 @@ struct GridModel {
                 fault.sheet.triangles.push_back({a, a + steps + 2, a + 1});
             }
         }
-        model.faults.push_back(fault);
+        model.barriers.push_back(fault);
     }
 
     void fill_vertices() {

@@ -94,8 +94,8 @@ std::vector<T> shuffled(std::vector<T> items, std::uint64_t seed) {
 }
 
 /// A flat fault x = at over the square [lo, hi]² in y and z.
-inline Fault fault_at_x(double at, double lo, double hi) {
-    Fault fault;
+inline Barrier fault_at_x(double at, double lo, double hi) {
+    Barrier fault;
     fault.name = "flat";
     fault.sheet.vertices = {{at, lo, lo}, {at, hi, lo}, {at, hi, hi}, {at, lo, hi}};
     fault.sheet.triangles = {{0, 1, 2}, {0, 2, 3}};

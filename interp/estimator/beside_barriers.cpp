@@ -9,13 +9,13 @@
 
 namespace terratet {
 
-std::vector<ValueQuery> beside_barriers(std::span<const ValueQuery> queries, const FaultProximity& faults) {
+std::vector<ValueQuery> beside_barriers(std::span<const ValueQuery> queries, const BarrierQuery& barriers) {
     std::vector<ValueQuery> placed(queries.begin(), queries.end());
-    if (!faults.empty()) {
+    if (!barriers.empty()) {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, placed.size(), 256), [&](const auto& part) {
             for (std::size_t i = part.begin(); i != part.end(); ++i) {
                 if (is_finite(placed[i].position)) {
-                    placed[i].position = faults.off_barriers(placed[i].position, placed[i].fault, placed[i].side);
+                    placed[i].position = barriers.off_barriers(placed[i].position, placed[i].barrier, placed[i].side);
                 }
             }
         });
@@ -23,12 +23,12 @@ std::vector<ValueQuery> beside_barriers(std::span<const ValueQuery> queries, con
     return placed;
 }
 
-std::vector<Vec3> beside_barriers(std::vector<Vec3> sites, const FaultProximity& faults) {
+std::vector<Vec3> beside_barriers(std::vector<Vec3> sites, const BarrierQuery& barriers) {
     std::vector<ValueQuery> queries(sites.size());
     for (std::size_t i = 0; i < sites.size(); ++i) {
         queries[i].position = sites[i];
     }
-    const std::vector<ValueQuery> placed = beside_barriers(queries, faults);
+    const std::vector<ValueQuery> placed = beside_barriers(queries, barriers);
     std::set<Vec3> taken;
     for (std::size_t i = 0; i < sites.size(); ++i) {
         if (placed[i].position == sites[i]) {

@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// Internal: places that lie exactly on a barrier see nothing. Samples and queries there count to one of its sides, the
-/// + side where none is asked for (FaultProximity::off_barriers).
+/// + side where none is asked for (BarrierQuery::off_barriers).
 
 #include <span>
 #include <vector>
@@ -15,9 +15,9 @@ namespace terratet {
 
 /// Each where it is seen from: a billionth of the spacing off the barrier that it lies on, all others where they are.
 /// In parallel.
-std::vector<ValueQuery> beside_barriers(std::span<const ValueQuery> queries, const FaultProximity& faults);
+std::vector<ValueQuery> beside_barriers(std::span<const ValueQuery> queries, const BarrierQuery& barriers);
 
 /// The same for distinct sites, which stay distinct: one whose new place is taken stays.
-std::vector<Vec3> beside_barriers(std::vector<Vec3> sites, const FaultProximity& faults);
+std::vector<Vec3> beside_barriers(std::vector<Vec3> sites, const BarrierQuery& barriers);
 
 }  // namespace terratet

@@ -34,9 +34,9 @@ void by_inverse_squares(const std::vector<NearSite>& near, std::vector<SiteWeigh
 
 }  // namespace
 
-Kriging::Kriging(std::vector<Vec3> sites, const FaultProximity* faults, const KrigingOptions& options,
+Kriging::Kriging(std::vector<Vec3> sites, const BarrierQuery* barriers, const KrigingOptions& options,
                  std::span<const std::int32_t> boreholes)
-    : sites_(std::move(sites)), index_(sites_, faults, options.variogram.anisotropy, boreholes), options_(options) {}
+    : sites_(std::move(sites)), index_(sites_, barriers, options.variogram.anisotropy, boreholes), options_(options) {}
 
 void Kriging::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     const double variance = options_.variogram.nugget + options_.variogram.sill;

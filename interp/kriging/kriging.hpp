@@ -32,7 +32,7 @@ struct KrigingOptions {
 class Kriging final : public Estimator {
   public:
     /// Distances of the neighbourhood are those of the variogram's anisotropy.
-    Kriging(std::vector<Vec3> sites, const FaultProximity* faults, const KrigingOptions& options,
+    Kriging(std::vector<Vec3> sites, const BarrierQuery* barriers, const KrigingOptions& options,
             std::span<const std::int32_t> boreholes = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;

@@ -17,7 +17,7 @@ std::shared_ptr<ModelSnapshot> built(Site site, const BuildOptions& options, Bui
     const EstimatorPlan plan = parse_estimator_plan(options.estimator);
     const auto counters = std::make_shared<EstimatorCounters>();
     std::shared_ptr<const ModelEstimator> estimator;
-    const auto factory = [&](const Model& model, const FaultProximity& barriers) -> ValueSource {
+    const auto factory = [&](const Model& model, const BarrierQuery& barriers) -> ValueSource {
         estimator = std::make_shared<const ModelEstimator>(model, barriers, plan, counters);
         return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
     };

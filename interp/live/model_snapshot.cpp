@@ -44,7 +44,7 @@ struct ModelSnapshot::Impl {
     bool described = false;
     std::mutex mutex;
 
-    const FaultProximity& barriers() {
+    const BarrierQuery& barriers() {
         if (!made->barriers) {
             made->barriers = model_proximity(made->model);
         }
@@ -109,7 +109,7 @@ const Model& ModelSnapshot::model() const {
     return impl_->made->model;
 }
 
-const FaultProximity& ModelSnapshot::barriers() const {
+const BarrierQuery& ModelSnapshot::barriers() const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->barriers();
 }

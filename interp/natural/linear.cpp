@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "interp/estimator/query_order.hpp"
 #include "interp/natural/cavity.hpp"
 #include "interp/natural/exact_volumes.hpp"
-#include "interp/estimator/query_order.hpp"
 #include "interp/natural/slopes.hpp"
 
 namespace terratet {
@@ -53,8 +53,8 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& corners, const Vec3
 
 }  // namespace
 
-LinearInCells::LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy)
-    : sites_(sites, faults, anisotropy) {}
+LinearInCells::LinearInCells(std::vector<Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy)
+    : sites_(sites, barriers, anisotropy) {}
 
 void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {

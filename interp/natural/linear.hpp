@@ -20,7 +20,7 @@ namespace terratet {
 class LinearInCells final : public Estimator {
   public:
     /// \pre as make_estimator's. O(n log n), about 6 µs a site.
-    LinearInCells(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
+    LinearInCells(std::vector<Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
     [[nodiscard]] std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const override;

@@ -6,13 +6,13 @@
 #include <numeric>
 #include <optional>
 
+#include "interp/estimator/query_order.hpp"
 #include "interp/natural/cavity.hpp"
 #include "interp/natural/exact_volumes.hpp"
-#include "interp/sites/facet_block.hpp"
-#include "interp/estimator/query_order.hpp"
 #include "interp/natural/site_gradients.hpp"
-#include "interp/sites/site_mesh.hpp"
 #include "interp/natural/slopes.hpp"
+#include "interp/sites/facet_block.hpp"
+#include "interp/sites/site_mesh.hpp"
 #include "interp/sites/sphere_tree.hpp"
 
 namespace terratet {
@@ -81,8 +81,7 @@ void add_boundary(const CompactDelaunay& mesh, const Vec3& q, void (FacetBlock::
     }
 }
 
-bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, Weighting weighting,
-                       Workspace& work) {
+bool shares_in_doubles(const CompactDelaunay& mesh, const Vec3& q, Weighting weighting, Workspace& work) {
     work.shares.assign(work.cavity.points.size(), 0.0);
     if (weighting == Weighting::sibson) {
         add_cells(mesh, work);
@@ -105,8 +104,8 @@ struct NaturalNeighbour::Impl {
     NaturalNeighbourOptions options;
     std::optional<SiteGradients> gradients;
 
-    Impl(const std::vector<Vec3>& places, const FaultProximity* faults, NaturalNeighbourOptions given)
-        : sites(places, faults, given.anisotropy), options(given) {
+    Impl(const std::vector<Vec3>& places, const BarrierQuery* barriers, NaturalNeighbourOptions given)
+        : sites(places, barriers, given.anisotropy), options(given) {
         if (options.smooth) {
             gradients.emplace(sites);
         }
@@ -184,9 +183,9 @@ struct NaturalNeighbour::Impl {
     }
 };
 
-NaturalNeighbour::NaturalNeighbour(std::vector<Vec3> sites, const FaultProximity* faults,
+NaturalNeighbour::NaturalNeighbour(std::vector<Vec3> sites, const BarrierQuery* barriers,
                                    NaturalNeighbourOptions options)
-    : impl_(std::make_unique<Impl>(sites, faults, options)) {}
+    : impl_(std::make_unique<Impl>(sites, barriers, options)) {}
 
 NaturalNeighbour::~NaturalNeighbour() = default;
 

@@ -19,7 +19,7 @@
 /// rest renormalised. A place beyond the box has the shares of the nearest place of the box. Where only ghosts are
 /// neighbours: the nearest visible site.
 ///
-/// Faults: a neighbour's weight is multiplied by how freely the query sees it (FaultProximity::openness), 0 where a
+/// Faults: a neighbour's weight is multiplied by how freely the query sees it (BarrierQuery::openness), 0 where a
 /// sheet is in the way, and the rest renormalised; so nothing across a fault counts, and estimates are continuous round
 /// a fault's end. When all are hidden, the nearest visible site; when none is visible, no value. What ghosts and hidden
 /// sites had is made up for by slopes at the sites (slopes.hpp), so that linear fields are reproduced there too.
@@ -51,7 +51,7 @@ struct NaturalNeighbourOptions {
 class NaturalNeighbour final : public Estimator {
   public:
     /// \pre as make_estimator's. O(n log n), about 6 µs a site.
-    NaturalNeighbour(std::vector<Vec3> sites, const FaultProximity* faults, NaturalNeighbourOptions options = {});
+    NaturalNeighbour(std::vector<Vec3> sites, const BarrierQuery* barriers, NaturalNeighbourOptions options = {});
     ~NaturalNeighbour() override;
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;

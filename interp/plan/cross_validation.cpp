@@ -10,14 +10,14 @@
 #include <numeric>
 
 #include "interp/estimator/beside_barriers.hpp"
-#include "interp/plan/error_study.hpp"
 #include "interp/estimator_spec.hpp"
+#include "interp/kriging/variogram_fit.hpp"
+#include "interp/plan/error_study.hpp"
 #include "interp/plan/extrapolation.hpp"
 #include "interp/plan/fitted_estimator.hpp"
 #include "interp/plan/folds.hpp"
 #include "interp/plan/learned_errors.hpp"
 #include "interp/plan/make_estimator.hpp"
-#include "interp/kriging/variogram_fit.hpp"
 
 namespace terratet {
 namespace {
@@ -82,7 +82,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-CrossValidation cross_validate(const Model& model, const FaultProximity& faults, std::size_t property,
+CrossValidation cross_validate(const Model& model, const BarrierQuery& barriers, std::size_t property,
                                const EstimatorSpec& spec, const CrossValidationOptions& options) {
     const Property& kind = model.properties[property];
     CrossValidation out;
@@ -99,9 +99,9 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
             boreholes.push_back(model.samples.borehole[s]);
         }
     }
-    sites = beside_barriers(std::move(sites), faults);
-    const FaultProximity& barriers = faults.seen_by(property);
-    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &barriers);
+    sites = beside_barriers(std::move(sites), barriers);
+    const BarrierQuery& seen = barriers.seen_by(property);
+    out.estimator = fitted_estimator(spec, sites, out.measured, boreholes, kind.kind, &seen);
     const auto folds = folds_of(model.samples, out.sample, options.max_folds, options.loose_folds);
     const ErrorGroups groups(sites.size(), folds, groups_max,
                              folds_of(model.samples, out.sample, 0, options.loose_folds).size());
@@ -125,13 +125,13 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
                 }
             }
             const Some part = some(kept);
-            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &barriers,
+            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &seen,
                                                samples_of_fold_fit);
         });
     }
     const PartialEstimator make = [&](std::span<const std::uint32_t> kept, std::uint32_t fold) {
         Some part = some(kept);
-        return make_estimator(of_group[fold % of_group.size()], std::move(part.sites), &barriers,
+        return make_estimator(of_group[fold % of_group.size()], std::move(part.sites), &seen,
                               std::move(part.boreholes));
     };
     out.folds = folds.size();
@@ -160,7 +160,7 @@ CrossValidation cross_validate(const Model& model, const FaultProximity& faults,
         return out;
     }
     out.deviation_source = has_variance ? DeviationSource::kriging : DeviationSource::cross_validated;
-    study.judge(&barriers, left_out);
+    study.judge(&seen, left_out);
     out.calibration = study.calibration();
     const auto stated = study.stated();
     for (std::size_t i = 0; i < sites.size(); ++i) {

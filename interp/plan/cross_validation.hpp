@@ -55,7 +55,7 @@ struct CrossValidationScore {
 /// the result does not depend on it. Costs an estimator for each fold, up to 20 fits, and the weights of all samples
 /// are held at once (16 bytes a term) where the method has no variance of its own.
 /// \pre the property has a sample
-CrossValidation cross_validate(const Model& model, const FaultProximity& faults, std::size_t property,
+CrossValidation cross_validate(const Model& model, const BarrierQuery& barriers, std::size_t property,
                                const EstimatorSpec& spec, const CrossValidationOptions& options = {});
 
 CrossValidationScore score(const CrossValidation& validation, const Property& property);

@@ -47,18 +47,18 @@ void ErrorStudy::add(std::uint32_t site, double estimate, const Weights& left_ou
     }
 }
 
-void ErrorStudy::learn(const FaultProximity* faults) {
+void ErrorStudy::learn(const BarrierQuery* barriers) {
     if (local_) {
-        local_->pool(faults);
+        local_->pool(barriers);
         local_->forget();
     }
 }
 
-void ErrorStudy::judge(const FaultProximity* faults, std::span<const Weights> left_out) {
+void ErrorStudy::judge(const BarrierQuery* barriers, std::span<const Weights> left_out) {
     if (!local_) {
         return;
     }
-    local_->pool(faults);
+    local_->pool(barriers);
     tbb::parallel_for(std::size_t{0}, groups_.boreholes.size(), [&](std::size_t group) {
         const auto rates = local_->without(static_cast<std::uint32_t>(group));
         for (std::size_t i = 0; i < sites_.size(); ++i) {

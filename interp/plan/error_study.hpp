@@ -38,10 +38,10 @@ class ErrorStudy {
 
     /// After the last add(): what is said of each estimate, learnt from the other groups' errors.
     /// \param left_out  of each site as add() had it; without terms it is not judged. Not read for an own variance.
-    void judge(const FaultProximity* faults, std::span<const Weights> left_out);
+    void judge(const BarrierQuery* barriers, std::span<const Weights> left_out);
 
     /// After the last add(), instead of judge(), when the calibration is known already.
-    void learn(const FaultProximity* faults);
+    void learn(const BarrierQuery* barriers);
 
     /// From all that was judged.
     [[nodiscard]] Calibration calibration() const;

@@ -8,14 +8,14 @@
 namespace terratet {
 
 EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
-                               std::span<const std::int32_t> boreholes, Kind kind, const FaultProximity* faults,
+                               std::span<const std::int32_t> boreholes, Kind kind, const BarrierQuery* barriers,
                                std::size_t most_samples) {
     if (!needs_values(spec)) {
         return spec;
     }
     EstimatorSpec complete = spec;
     if (!spec.options.contains("drift") && kind == Kind::continuous) {
-        complete.options["drift"] = better_drift(spec, sites, values, boreholes, faults);
+        complete.options["drift"] = better_drift(spec, sites, values, boreholes, barriers);
     }
     return with_fitted_variogram(complete, sites, values, boreholes, kind, most_samples);
 }

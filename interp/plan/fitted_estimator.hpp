@@ -19,6 +19,6 @@ namespace terratet {
 /// \param faults  barriers; may be null
 EstimatorSpec fitted_estimator(const EstimatorSpec& spec, std::span<const Vec3> sites, std::span<const double> values,
                                std::span<const std::int32_t> boreholes, Kind kind = Kind::continuous,
-                               const FaultProximity* faults = nullptr, std::size_t most_samples = 5000);
+                               const BarrierQuery* barriers = nullptr, std::size_t most_samples = 5000);
 
 }  // namespace terratet

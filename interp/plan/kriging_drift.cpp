@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "interp/kriging/fitted_variogram.hpp"
-#include "interp/plan/folds.hpp"
 #include "interp/kriging/kriging_system.hpp"
-#include "interp/plan/make_estimator.hpp"
 #include "interp/kriging/variogram_fit.hpp"
+#include "interp/plan/folds.hpp"
+#include "interp/plan/make_estimator.hpp"
 
 namespace terratet {
 namespace {
@@ -40,7 +40,7 @@ double variance(std::span<const double> values) {
 }  // namespace
 
 std::string better_drift(const EstimatorSpec& open, std::span<const Vec3> all_sites, std::span<const double> all_values,
-                         std::span<const std::int32_t> all_boreholes, const FaultProximity* faults) {
+                         std::span<const std::int32_t> all_boreholes, const BarrierQuery* barriers) {
     std::vector<Vec3> sites;
     std::vector<double> values;
     std::vector<std::int32_t> boreholes;
@@ -74,7 +74,7 @@ std::string better_drift(const EstimatorSpec& open, std::span<const Vec3> all_si
                 holes.push_back(boreholes[i]);
             }
             const auto fitted = with_fitted_variogram(spec, some, known, holes, Kind::continuous, samples_of_fold_fit);
-            return make_estimator(fitted, std::move(some), faults, std::move(holes));
+            return make_estimator(fitted, std::move(some), barriers, std::move(holes));
         };
         for_each_left_out(sites, groups, make, {}, [&](std::uint32_t site, const Weights& weights, const auto&) {
             if (!weights.terms.empty()) {

@@ -19,6 +19,6 @@ namespace terratet {
 /// the mean; else "constant", as with fewer than five boreholes. Looks at 4000 samples at most: about a second.
 /// \param open  a kriging specification without a drift
 std::string better_drift(const EstimatorSpec& open, std::span<const Vec3> sites, std::span<const double> values,
-                         std::span<const std::int32_t> boreholes, const FaultProximity* faults);
+                         std::span<const std::int32_t> boreholes, const BarrierQuery* barriers);
 
 }  // namespace terratet

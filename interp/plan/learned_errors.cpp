@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interp/plan/error_study.hpp"
 #include "interp/estimator_spec.hpp"
+#include "interp/kriging/variogram_fit.hpp"
+#include "interp/plan/error_study.hpp"
 #include "interp/plan/fitted_estimator.hpp"
 #include "interp/plan/folds.hpp"
 #include "interp/plan/make_estimator.hpp"
-#include "interp/kriging/variogram_fit.hpp"
 
 namespace terratet {
 namespace {
@@ -35,9 +35,9 @@ std::vector<Weights> leave_out(const ErrorTask& task, const std::vector<std::vec
         auto boreholes = picked(task.boreholes, kept);
         const EstimatorSpec spec =
             needs_values(task.open) ? fitted_estimator(task.open, sites, picked(task.columns.front().scaled, kept),
-                                                       boreholes, Kind::continuous, &task.faults, samples_of_fold_fit)
+                                                       boreholes, Kind::continuous, &task.barriers, samples_of_fold_fit)
                                     : task.spec;
-        return make_estimator(spec, std::move(sites), &task.faults, std::move(boreholes));
+        return make_estimator(spec, std::move(sites), &task.barriers, std::move(boreholes));
     };
     std::vector<Weights> weights(task.sites.size());
     const std::size_t step = (task.sites.size() + judged_max - 1) / judged_max;
@@ -69,7 +69,7 @@ StatedError LearnedErrors::of(const Vec3& place, const Weights& weights, double 
 std::vector<std::optional<LearnedErrors>> learn_errors(const ErrorTask& task) {
     const auto folds = folds_of(task.samples, task.which, task.max_folds);
     const bool own_variance =
-        make_estimator(task.spec, {task.sites.front()}, &task.faults, {task.boreholes.front()})->has_variance();
+        make_estimator(task.spec, {task.sites.front()}, &task.barriers, {task.boreholes.front()})->has_variance();
     std::vector<std::optional<LearnedErrors>> out(task.columns.size());
     bool all_known = true;
     for (std::size_t c = 0; c < out.size(); ++c) {
@@ -97,9 +97,9 @@ std::vector<std::optional<LearnedErrors>> learn_errors(const ErrorTask& task) {
             continue;
         }
         if (task.columns[c].known != nullptr) {
-            studies[c]->learn(&task.faults);
+            studies[c]->learn(&task.barriers);
         } else {
-            studies[c]->judge(&task.faults, weights);
+            studies[c]->judge(&task.barriers, weights);
             out[c]->calibration = studies[c]->calibration();
         }
         out[c]->local = studies[c]->take_local();

@@ -44,7 +44,7 @@ struct ErrorTask {
     std::span<const std::uint32_t> which;  ///< the sites as samples
     std::span<const Vec3> sites;
     std::span<const std::int32_t> boreholes;
-    const FaultProximity& faults;
+    const BarrierQuery& barriers;
     std::vector<Column> columns;
     std::size_t max_folds = 20;
 };

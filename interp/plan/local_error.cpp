@@ -102,7 +102,7 @@ void LocalError::add(std::uint32_t site, double error, const Weights& left_out) 
     distance_[site] = distance_to_used(sites_, sites_[site], left_out);
 }
 
-void LocalError::pool(const FaultProximity* faults, std::size_t count) {
+void LocalError::pool(const BarrierQuery* barriers, std::size_t count) {
     for (std::uint32_t i = 0; i < sites_.size(); ++i) {
         if (!std::isnan(squared_error_[i])) {
             order_.push_back(i);
@@ -112,7 +112,7 @@ void LocalError::pool(const FaultProximity* faults, std::size_t count) {
                      [&](std::uint32_t a, std::uint32_t b) { return distance_[a] < distance_[b]; });
     std::vector<ValueQuery> places(sites_.size());
     std::transform(sites_.begin(), sites_.end(), places.begin(), [](const Vec3& p) { return ValueQuery{p, -1, 0}; });
-    const SiteIndex index(sites_, faults);
+    const SiteIndex index(sites_, barriers);
     std::vector<std::uint32_t> found(sites_.size(), 0);
     near_.resize(sites_.size() * count);
     in_spatial_order(places, [&](std::span<const std::uint32_t> run) {

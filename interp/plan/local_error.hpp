@@ -42,7 +42,7 @@ class LocalError {
     void add(std::uint32_t site, double error, const Weights& left_out);
 
     /// Learns from what was added. 128 bytes a site meanwhile.
-    void pool(const FaultProximity* faults, std::size_t count = 32);
+    void pool(const BarrierQuery* barriers, std::size_t count = 32);
 
     /// As pool() learnt, but from the other folds' errors alone. O(sites · count). \pre pool(), forget() not yet
     [[nodiscard]] Rates without(std::uint32_t fold) const;

@@ -20,6 +20,6 @@ namespace terratet {
 /// \param boreholes of each site its borehole, −1 for a loose one, for methods that limit how many of one borehole they
 ///                  take; empty: all loose
 std::unique_ptr<Estimator> make_estimator(const EstimatorSpec& spec, std::vector<Vec3> sites,
-                                          const FaultProximity* faults, std::vector<std::int32_t> boreholes = {});
+                                          const BarrierQuery* barriers, std::vector<std::int32_t> boreholes = {});
 
 }  // namespace terratet

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "interp/estimator/beside_barriers.hpp"
+#include "interp/estimator/query_order.hpp"
 #include "interp/estimator_plan.hpp"
+#include "interp/natural/linear_precision.hpp"
 #include "interp/plan/extrapolation.hpp"
 #include "interp/plan/fitted_estimator.hpp"
 #include "interp/plan/learned_errors.hpp"
-#include "interp/natural/linear_precision.hpp"
 #include "interp/plan/make_estimator.hpp"
-#include "interp/estimator/query_order.hpp"
 
 namespace terratet {
 namespace {
@@ -36,7 +36,7 @@ struct Column {
 /// Properties measured at the same samples, barred by the same and estimated alike, and the estimator over those.
 struct Group {
     EstimatorSpec spec;
-    const FaultProximity* barriers = nullptr;
+    const BarrierQuery* barriers = nullptr;
     std::vector<std::uint32_t> samples;
     std::vector<Vec3> sites;
     std::vector<Column> columns;
@@ -75,14 +75,14 @@ std::vector<std::uint32_t> samples_with(const Model& model, std::size_t p) {
 
 /// Fits what the plan leaves open, and notes it there.
 EstimatorSpec fitted_for(const Model& model, const Column& column, std::span<const std::uint32_t> samples,
-                         const FaultProximity& faults, EstimatorPlan& plan) {
+                         const BarrierQuery& barriers, EstimatorPlan& plan) {
     const Property& property = model.properties[column.property];
     const EstimatorSpec& spec = plan.of(property.name);
     if (!needs_values(spec)) {
         return spec;
     }
     EstimatorSpec fitted = fitted_estimator(spec, picked(model.samples.positions, samples), column.scaled,
-                                            picked(model.samples.borehole, samples), property.kind, &faults);
+                                            picked(model.samples.borehole, samples), property.kind, &barriers);
     plan.of_property[property.name] = fitted;
     return fitted;
 }
@@ -110,7 +110,7 @@ void set_traits(Group& group, const Model& model, std::span<const std::int32_t> 
 
 /// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
 /// values.
-std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, EstimatorPlan& plan) {
+std::vector<Group> groups_of(const Model& model, const BarrierQuery& barriers, EstimatorPlan& plan) {
     std::map<std::tuple<std::vector<std::uint32_t>, std::string, bool>, Group> groups;
     for (std::size_t p = 0; p < model.properties.size(); ++p) {
         auto samples = samples_with(model, p);
@@ -118,17 +118,17 @@ std::vector<Group> groups_of(const Model& model, const FaultProximity& faults, E
             continue;
         }
         Column column = column_of(model, p, samples);
-        const FaultProximity& barriers = faults.seen_by(p);
-        EstimatorSpec spec = fitted_for(model, column, samples, barriers, plan);
-        Group& group = groups[{samples, spec.to_string(), &barriers == &faults}];
-        group.barriers = &barriers;
+        const BarrierQuery& seen = barriers.seen_by(p);
+        EstimatorSpec spec = fitted_for(model, column, samples, seen, plan);
+        Group& group = groups[{samples, spec.to_string(), &seen == &barriers}];
+        group.barriers = &seen;
         group.columns.push_back(std::move(column));
         group.spec = std::move(spec);
         group.samples = std::move(samples);
     }
     std::vector<Group> out;
     for (auto& [key, group] : groups) {
-        group.sites = beside_barriers(picked(model.samples.positions, group.samples), faults);
+        group.sites = beside_barriers(picked(model.samples.positions, group.samples), barriers);
         const auto boreholes = picked(model.samples.borehole, group.samples);
         group.estimator = make_estimator(group.spec, group.sites, group.barriers, boreholes);
         set_traits(group, model, boreholes, plan);
@@ -248,7 +248,7 @@ const char* to_string(DeviationSource source) {
 
 struct ModelEstimator::Impl {
     const Model& model;
-    const FaultProximity& faults;
+    const BarrierQuery& barriers;
     EstimatorPlan plan;
     std::vector<Group> groups;
     std::shared_ptr<EstimatorCounters> counters;
@@ -257,7 +257,7 @@ struct ModelEstimator::Impl {
     /// would walk over all of the memory; place[k] is the block's k-th query's index in `queries`.
     template <typename Work>
     void for_each_block(std::span<const ValueQuery> asked, const Work& work) const {
-        const std::vector<ValueQuery> queries = beside_barriers(asked, faults);
+        const std::vector<ValueQuery> queries = beside_barriers(asked, barriers);
         const bool single = queries.size() <= block_size;
         const auto order = single ? std::vector<std::uint32_t>() : spatial_order(queries);
         std::vector<ValueQuery> sorted;
@@ -353,10 +353,10 @@ struct ModelEstimator::Impl {
     }
 };
 
-ModelEstimator::ModelEstimator(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
+ModelEstimator::ModelEstimator(const Model& model, const BarrierQuery& barriers, const EstimatorPlan& plan,
                                std::shared_ptr<EstimatorCounters> counters, const ModelEstimatorOptions& options)
-    : impl_(new Impl{model, faults, plan, {}, std::move(counters)}) {
-    impl_->groups = groups_of(model, faults, impl_->plan);
+    : impl_(new Impl{model, barriers, plan, {}, std::move(counters)}) {
+    impl_->groups = groups_of(model, barriers, impl_->plan);
     if (impl_->groups.size() == 1) {
         impl_->plan.general = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
         impl_->plan.of_property.clear();

@@ -7,10 +7,10 @@
 
 namespace terratet {
 
-ValueSource make_model_source(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
+ValueSource make_model_source(const Model& model, const BarrierQuery& barriers, const EstimatorPlan& plan,
                               std::shared_ptr<EstimatorCounters> counters) {
     // Shared, since a std::function must be copyable and estimators are not.
-    const auto estimator = std::make_shared<const ModelEstimator>(model, faults, plan, std::move(counters));
+    const auto estimator = std::make_shared<const ModelEstimator>(model, barriers, plan, std::move(counters));
     return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
 }
 

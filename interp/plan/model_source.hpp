@@ -12,7 +12,7 @@
 namespace terratet {
 
 /// ModelEstimator::values() as a value source. Both `model` and `faults` must outlive it.
-ValueSource make_model_source(const Model& model, const FaultProximity& faults, const EstimatorPlan& plan,
+ValueSource make_model_source(const Model& model, const BarrierQuery& barriers, const EstimatorPlan& plan,
                               std::shared_ptr<EstimatorCounters> counters = {});
 
 }  // namespace terratet

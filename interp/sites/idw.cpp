@@ -30,9 +30,9 @@ void weigh(const std::vector<NearSite>& near, double power, std::vector<SiteWeig
 
 }  // namespace
 
-InverseDistance::InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options,
+InverseDistance::InverseDistance(std::vector<Vec3> sites, const BarrierQuery* barriers, const IdwOptions& options,
                                  std::span<const std::int32_t> boreholes)
-    : sites_(std::move(sites)), index_(sites_, faults, options.anisotropy, boreholes), options_(options) {}
+    : sites_(std::move(sites)), index_(sites_, barriers, options.anisotropy, boreholes), options_(options) {}
 
 void InverseDistance::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {

@@ -21,7 +21,7 @@ struct IdwOptions {
 
 class InverseDistance final : public Estimator {
   public:
-    InverseDistance(std::vector<Vec3> sites, const FaultProximity* faults, const IdwOptions& options,
+    InverseDistance(std::vector<Vec3> sites, const BarrierQuery* barriers, const IdwOptions& options,
                     std::span<const std::int32_t> boreholes = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;

@@ -8,8 +8,8 @@
 
 namespace terratet {
 
-Nearest::Nearest(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy)
-    : sites_(std::move(sites)), index_(sites_, faults, anisotropy) {}
+Nearest::Nearest(std::vector<Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy)
+    : sites_(std::move(sites)), index_(sites_, barriers, anisotropy) {}
 
 void Nearest::weights(std::span<const ValueQuery> queries, std::span<Weights> out) const {
     in_spatial_order(queries, out, [&](std::span<const std::uint32_t> run) {

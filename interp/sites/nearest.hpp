@@ -14,7 +14,7 @@ namespace terratet {
 
 class Nearest final : public Estimator {
   public:
-    Nearest(std::vector<Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
+    Nearest(std::vector<Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy = {});
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
 

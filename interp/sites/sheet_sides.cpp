@@ -5,10 +5,10 @@
 namespace terratet {
 
 SheetSides::SheetSides(const SiteMesh& sites) : sites_(sites) {
-    if (const FaultProximity* faults = sites.faults()) {
-        for (std::size_t f = 0; f < faults->faults().size(); ++f) {
+    if (const BarrierQuery* barriers = sites.barriers()) {
+        for (std::size_t f = 0; f < barriers->barriers().size(); ++f) {
             const auto index = static_cast<std::int32_t>(f);
-            if (faults->bars(index) && !faults->faults()[f].sheet.triangles.empty()) {
+            if (barriers->bars(index) && !barriers->barriers()[f].sheet.triangles.empty()) {
                 barriers_.push_back(index);
             }
         }
@@ -19,8 +19,8 @@ SheetSides::SheetSides(const SiteMesh& sites) : sites_(sites) {
 
 void SheetSides::squared_distances(std::int32_t site, std::vector<double>& out) const {
     out.clear();
-    for (const std::int32_t fault : barriers_) {
-        const double distance = sites_.faults()->distance_to_sheet(fault, sites_.place(site));
+    for (const std::int32_t barrier : barriers_) {
+        const double distance = sites_.barriers()->distance_to_sheet(barrier, sites_.place(site));
         out.push_back(distance * distance);
     }
 }
@@ -40,7 +40,7 @@ int SheetSides::side(std::size_t barrier, std::int32_t site) const {
     std::int8_t side = known.load(std::memory_order_relaxed);
     if (side == 0) {  // whoever finds it finds the same
         constexpr std::int8_t on_it = 2;
-        const std::int8_t found = sites_.faults()->side_of(barriers_[barrier], sites_.place(site));
+        const std::int8_t found = sites_.barriers()->side_of(barriers_[barrier], sites_.place(site));
         side = found == 0 ? on_it : found;
         known.store(side, std::memory_order_relaxed);
     }

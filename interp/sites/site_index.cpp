@@ -22,14 +22,14 @@ SiteTree tree_of(std::span<const Vec3> sites, const Metric& metric, const Anisot
 
 }  // namespace
 
-SiteIndex::SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy,
+SiteIndex::SiteIndex(std::span<const Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy,
                      std::span<const std::int32_t> boreholes)
     : sites_(sites),
-      faults_(faults && !faults->empty() ? faults : nullptr),
+      barriers_(barriers && !barriers->empty() ? barriers : nullptr),
       metric_(anisotropy),
       tree_(tree_of(sites, metric_, anisotropy, boreholes)) {
-    if (faults_) {
-        ways_ = std::make_unique<const WaysRound>(*faults_, metric_, [this](const Vec3& place) {
+    if (barriers_) {
+        ways_ = std::make_unique<const WaysRound>(*barriers_, metric_, [this](const Vec3& place) {
             int looks = 0;
             std::vector<NearSite> near;
             tree_.neighbourhood(
@@ -41,7 +41,7 @@ SiteIndex::SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults, 
 }
 
 bool SiteIndex::visible(const ValueQuery& query, std::uint32_t site) const {
-    return !faults_ || sites_[site] == query.position || !faults_->crosses_any(query.position, sites_[site]);
+    return !barriers_ || sites_[site] == query.position || !barriers_->crosses_any(query.position, sites_[site]);
 }
 
 void SiteIndex::nearest(const ValueQuery& query, std::size_t count, std::vector<NearSite>& out, double radius) const {
@@ -50,7 +50,7 @@ void SiteIndex::nearest(const ValueQuery& query, std::size_t count, std::vector<
 
 void SiteIndex::neighbourhood(const ValueQuery& query, const Neighbourhood& limits, std::vector<NearSite>& out) const {
     const Vec3 place = metric_(query.position);
-    if (!faults_ && limits.per_octant == 0 && limits.per_borehole == 0) {
+    if (!barriers_ && limits.per_octant == 0 && limits.per_borehole == 0) {
         tree_.nearest(place, limits.max_points, limits.radius * limits.radius, out);
     } else {
         tree_.neighbourhood(

@@ -24,7 +24,7 @@ class SiteIndex {
     /// \param sites      must outlive the index
     /// \param faults     walls; must outlive the index; may be null
     /// \param boreholes  of each site, for Neighbourhood::per_borehole; empty: none
-    SiteIndex(std::span<const Vec3> sites, const FaultProximity* faults, const Anisotropy& anisotropy = {},
+    SiteIndex(std::span<const Vec3> sites, const BarrierQuery* barriers, const Anisotropy& anisotropy = {},
               std::span<const std::int32_t> boreholes = {});
     SiteIndex(const SiteIndex&) = delete;
     SiteIndex& operator=(const SiteIndex&) = delete;
@@ -55,7 +55,7 @@ class SiteIndex {
 
   private:
     std::span<const Vec3> sites_;
-    const FaultProximity* faults_;
+    const BarrierQuery* barriers_;
     Metric metric_;
     SiteTree tree_;
     std::unique_ptr<const WaysRound> ways_;  ///< null without faults

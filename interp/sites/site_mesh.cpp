@@ -41,20 +41,20 @@ std::vector<Vec3> in_metric(const std::vector<Vec3>& sites, const Anisotropy& an
 
 }  // namespace
 
-SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults, const Anisotropy& anisotropy)
-    : SiteMesh(sites, in_metric(sites, anisotropy), faults, anisotropy) {}
+SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const BarrierQuery* barriers, const Anisotropy& anisotropy)
+    : SiteMesh(sites, in_metric(sites, anisotropy), barriers, anisotropy) {}
 
-SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
+SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const BarrierQuery* barriers,
                    const Anisotropy& anisotropy)
     : original_(morton_order(at)),
       places_(anisotropy.isotropic() ? std::vector<Vec3>() : permuted(sites, original_)),
       mesh_(permuted(at, original_)),
-      faults_(faults && !faults->empty() ? faults : nullptr),
-      index_(places_.empty() ? mesh_.points().first(sites.size()) : std::span<const Vec3>(places_), faults,
+      barriers_(barriers && !barriers->empty() ? barriers : nullptr),
+      index_(places_.empty() ? mesh_.points().first(sites.size()) : std::span<const Vec3>(places_), barriers,
              anisotropy) {}
 
 double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {
-    return faults_ ? faults_->openness(from, place(vertex)) : 1;
+    return barriers_ ? barriers_->openness(from, place(vertex)) : 1;
 }
 
 CompactDelaunay::Location SiteMesh::locate(const SiteQuery& q, std::int32_t& start, Weights& out) const {

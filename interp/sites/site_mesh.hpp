@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "interp/anisotropy.hpp"
-#include "interp/sites/compact_delaunay.hpp"
 #include "interp/estimator/estimator.hpp"
+#include "interp/sites/compact_delaunay.hpp"
 #include "interp/sites/site_index.hpp"
 #include "tess/barrier_query.hpp"
 
@@ -34,7 +34,7 @@ class SiteMesh {
   public:
     /// \pre as make_estimator's. Throws UsageError where the anisotropy is so strong that sites coincide or lie beyond
     /// acceptable coordinates.
-    SiteMesh(const std::vector<Vec3>& sites, const FaultProximity* faults, const Anisotropy& anisotropy = {});
+    SiteMesh(const std::vector<Vec3>& sites, const BarrierQuery* barriers, const Anisotropy& anisotropy = {});
     SiteMesh(const SiteMesh&) = delete;
     SiteMesh& operator=(const SiteMesh&) = delete;
 
@@ -44,7 +44,7 @@ class SiteMesh {
         return {place, at, mesh_.box().clamped(at)};
     }
     /// The barriers; null for none.
-    [[nodiscard]] const FaultProximity* faults() const { return faults_; }
+    [[nodiscard]] const BarrierQuery* barriers() const { return barriers_; }
 
     /// The caller's number of a site of the tessellation.
     [[nodiscard]] std::uint32_t original(std::int32_t vertex) const {
@@ -63,7 +63,7 @@ class SiteMesh {
     /// The sites by the tessellation's numbers, in its coordinates.
     [[nodiscard]] const SiteTree& tree() const { return index_.tree(); }
 
-    /// 0 where a fault is in the way, 1 where none is near it (FaultProximity::openness).
+    /// 0 where a fault is in the way, 1 where none is near it (BarrierQuery::openness).
     [[nodiscard]] double openness(const Vec3& place, std::int32_t vertex) const;
 
     /// The cell that contains q.within, or −1 when `out` holds the answer already: where that is a site, and where q is
@@ -84,7 +84,7 @@ class SiteMesh {
 
   private:
     /// \param at  the sites in the tessellation's coordinates
-    SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const FaultProximity* faults,
+    SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const BarrierQuery* barriers,
              const Anisotropy& anisotropy);
     void nearest_visible(const SiteQuery& q, Weights& out) const;
     /// Round barriers. \param most  that of one that is visible
@@ -93,7 +93,7 @@ class SiteMesh {
     std::vector<std::uint32_t> original_;
     std::vector<Vec3> places_;  ///< of the sites, in the tessellation's order; empty: as in the tessellation
     CompactDelaunay mesh_;
-    const FaultProximity* faults_;
+    const BarrierQuery* barriers_;
     SiteIndex index_;
 };
 

@@ -10,12 +10,12 @@
 
 namespace terratet {
 
-WaysRound::WaysRound(const FaultProximity& faults, const Metric& metric, std::function<double(const Vec3&)> to_site)
-    : faults_(faults), metric_(metric), to_site_(std::move(to_site)) {}
+WaysRound::WaysRound(const BarrierQuery& barriers, const Metric& metric, std::function<double(const Vec3&)> to_site)
+    : barriers_(barriers), metric_(metric), to_site_(std::move(to_site)) {}
 
 /// Dijkstra's algorithm, from all sites at once.
 void WaysRound::find() const {
-    const auto& [places, seen] = faults_.turns();
+    const auto& [places, seen] = barriers_.turns();
     for (const Vec3& place : places) {
         at_.push_back(metric_(place));
         onwards_.push_back(to_site_(place));
@@ -46,9 +46,9 @@ double WaysRound::shorter(const Vec3& place, double straight) const {
         }
     }
     std::sort(ways.begin(), ways.end());
-    const auto& places = faults_.turns().places;
+    const auto& places = barriers_.turns().places;
     const auto found = std::find_if(ways.begin(), ways.end(),
-                                    [&](const auto& way) { return !faults_.crosses_any(place, places[way.second]); });
+                                    [&](const auto& way) { return !barriers_.crosses_any(place, places[way.second]); });
     return found == ways.end() ? straight : found->first;
 }
 

@@ -3,9 +3,9 @@
 #pragma once
 /// \file
 /// The shortest way round barriers from a place to a site: straight to one that is seen, or by way of the barriers'
-/// free rims, where such ways turn (tess/barrier/query/rim_turns.hpp). In a metric's coordinates. Found along straight lines between
-/// places just outside the rims, it may be somewhat longer than the shortest way there is, never shorter; a sheet that
-/// a way would have to bend round between its rims counts as barring it.
+/// free rims, where such ways turn (tess/barrier/query/rim_turns.hpp). In a metric's coordinates. Found along straight
+/// lines between places just outside the rims, it may be somewhat longer than the shortest way there is, never shorter;
+/// a sheet that a way would have to bend round between its rims counts as barring it.
 
 #include <functional>
 #include <mutex>
@@ -20,7 +20,7 @@ class WaysRound {
   public:
     /// \param to_site  from a place straight to the nearest site that it sees; infinity where it sees none. Asked at up
     ///                 to 256 places, when first needed.
-    WaysRound(const FaultProximity& faults, const Metric& metric, std::function<double(const Vec3&)> to_site);
+    WaysRound(const BarrierQuery& barriers, const Metric& metric, std::function<double(const Vec3&)> to_site);
 
     /// \param straight  to_site(place)
     [[nodiscard]] double shorter(const Vec3& place, double straight) const;
@@ -28,7 +28,7 @@ class WaysRound {
   private:
     void find() const;
 
-    const FaultProximity& faults_;
+    const BarrierQuery& barriers_;
     Metric metric_;
     std::function<double(const Vec3&)> to_site_;
     mutable std::once_flag wanted_;

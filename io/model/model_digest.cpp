@@ -103,7 +103,7 @@ class Hash {
         const auto& [position, side] = s;
         add_all(position, side);
     }
-    void add(const Fault& f) {
+    void add(const Barrier& f) {
         const auto& [name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius, refined] = f;
         add_all(name, sheet, margin, seeds, spacing, width, covering_radius, protection_radius, refined);
     }
@@ -140,7 +140,7 @@ class Hash {
         const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides] = c;
         add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides);
     }
-    void add(const FaultOptions& o) {
+    void add(const BarrierOptions& o) {
         const auto& [spacing, width, snap, max_seeds, mode, refine] = o;
         add_all(spacing, width, snap, max_seeds, mode, refine);
     }
@@ -179,8 +179,8 @@ std::string model_digest(const Model& model) {
     Hash hash;
     hash.add(std::string("terratet model 1"));
     hash.add_all(model.frame, model.properties, model.boreholes, model.samples, model.surfaces, model.domain,
-                 model.criteria, model.density, model.fault_options, model.region_names, model.faults, model.vertices,
-                 model.vertex_values, model.estimator);
+                 model.criteria, model.density, model.barrier_options, model.region_names, model.barriers,
+                 model.vertices, model.vertex_values, model.estimator);
     return hash.hex();
 }
 

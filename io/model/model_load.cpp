@@ -11,31 +11,14 @@
 #include "io/model/model_guard.hpp"
 #include "io/model/model_meta.hpp"
 #include "io/model/model_schema.hpp"
+#include "io/model/opened_model.hpp"
+#include "io/model/row_index.hpp"
 #include "io/model_store.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
-
-/// Index of a row by its number in the file, which need not count up without gaps once a model was edited.
-class RowIndex {
-  public:
-    void add(std::int64_t row) { rows_.push_back(row); }
-
-    [[nodiscard]] std::optional<std::size_t> find(std::int64_t row) const {
-        const std::size_t guess = static_cast<std::size_t>(row) - 1;
-        if (guess < rows_.size() && rows_[guess] == row) {
-            return guess;
-        }
-        const auto found = std::lower_bound(rows_.begin(), rows_.end(), row);
-        return found != rows_.end() && *found == row ? std::optional(static_cast<std::size_t>(found - rows_.begin()))
-                                                     : std::nullopt;
-    }
-
-  private:
-    std::vector<std::int64_t> rows_;  ///< ascending
-};
 
 template <typename T>
 std::vector<T> unpack(const LayerReader& layer, std::span<const std::byte> bytes, const char* what) {
@@ -256,15 +239,15 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
                                   bool margin) {
     const std::string name = layer.required_text_at(columns.fault);
     if (margin) {
-        if (model_.faults.empty() || has_margin_.back() || model_.faults.back().name != name) {
+        if (model_.barriers.empty() || has_margin_.back() || model_.barriers.back().name != name) {
             layer.fail("a margin must follow its fault's sheet");
         }
-        model_.faults.back().margin = read_mesh(layer, columns);
-        model_.faults.back().margin.kind = kind;
+        model_.barriers.back().margin = read_mesh(layer, columns);
+        model_.barriers.back().margin.kind = kind;
         has_margin_.back() = true;
         return;
     }
-    Fault fault;
+    Barrier fault;
     fault.name = name;
     fault.sheet = read_mesh(layer, columns);
     fault.sheet.kind = kind;
@@ -278,7 +261,7 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
           std::pair(fault.protection_radius, columns.protection_radius)}) {
         layer.require(length >= 0 && length <= max_coordinate, column, "a length from 0 to 1e9");
     }
-    fault.refined = model_.fault_options.refine;
+    fault.refined = model_.barrier_options.refine;
     const auto packed = unpack<std::array<double, 4>>(layer, layer.bytes_at(columns.seeds), "seeds");
     for (const auto& [x, y, z, side] : packed) {
         if (!is_acceptable({x, y, z}) || (side != 1 && side != -1 && side != 0)) {
@@ -286,7 +269,7 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
         }
         fault.seeds.push_back({local(layer, {x, y, z}), static_cast<std::int8_t>(side)});
     }
-    fault_of_sheet_row_[layer.row_number()] = model_.faults.size();
+    fault_of_sheet_row_[layer.row_number()] = model_.barriers.size();
     has_margin_.push_back(false);
     const std::int64_t count = layer.required_integer_at(columns.seed_count);
     const bool packed_here = layer.is_set(columns.seeds) || count == 0;
@@ -294,7 +277,7 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
         layer.fail("its seeds are not as many as its seed_count");
     }
     seeds_among_vertices_.push_back(packed_here ? 0 : static_cast<std::size_t>(count));
-    model_.faults.push_back(std::move(fault));
+    model_.barriers.push_back(std::move(fault));
 }
 
 void ModelReader::read_surfaces() {
@@ -374,14 +357,14 @@ void ModelReader::find_seeds_among_vertices() {
     for (const Vertex& vertex : model_.vertices) {
         const auto fault = static_cast<std::size_t>(vertex.owner);
         if (vertex.role == Role::seed && seeds_among_vertices_[fault] > 0) {
-            model_.faults[fault].seeds.push_back({vertex.position, vertex.side});
+            model_.barriers[fault].seeds.push_back({vertex.position, vertex.side});
         }
     }
-    for (std::size_t f = 0; f < model_.faults.size(); ++f) {
-        if (seeds_among_vertices_[f] > 0 && seeds_among_vertices_[f] != model_.faults[f].seeds.size()) {
+    for (std::size_t f = 0; f < model_.barriers.size(); ++f) {
+        if (seeds_among_vertices_[f] > 0 && seeds_among_vertices_[f] != model_.barriers[f].seeds.size()) {
             throw InputError(file_ + ": layer " + schema::vertices + " has " +
-                             std::to_string(model_.faults[f].seeds.size()) + " seeds of fault " +
-                             model_.faults[f].name + ", which had " + std::to_string(seeds_among_vertices_[f]));
+                             std::to_string(model_.barriers[f].seeds.size()) + " seeds of fault " +
+                             model_.barriers[f].name + ", which had " + std::to_string(seeds_among_vertices_[f]));
         }
     }
 }
@@ -445,57 +428,12 @@ Model ModelReader::read(const LoadOptions& options) {
     return std::move(model_);
 }
 
-Dataset open_model(const std::string& path, GdalScope& scope) {
-    VSIStatBufL status;
-    if (!is_connection(path) && VSIStatL(path.c_str(), &status) == 0 && holds_model(path)) {
-        require_plain_model(path);
-    }
-    const char* const drivers[] = {"GPKG", "PostgreSQL", nullptr};
-    const SafeSqlite settings;
-    scope.clear();
-    Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, nullptr, nullptr));
-    if (!dataset) {
-        const bool there = is_connection(path) || VSIStatL(path.c_str(), &status) == 0;
-        throw InputError(path + (there ? ": is no GeoPackage" : ": not found") +
-                         (scope.failed() ? ": " + scope.failure() : ""));
-    }
-    if (!dataset->GetLayerByName(schema::meta)) {
-        throw InputError(path + ": is no Terratet model (it has no layer " + schema::meta + ")");
-    }
-    return dataset;
-}
-
 }  // namespace
 
 Model load_model(const std::string& path, const LoadOptions& options) {
     GdalScope scope(path);
     const Dataset dataset = open_model(path, scope);
     return naming_file(path, [&] { return ModelReader(*dataset, scope, path).read(options); });
-}
-
-std::vector<JournalEntry> load_journal(const std::string& path) {
-    GdalScope scope(path);
-    const Dataset dataset = open_model(path, scope);
-    LayerReader layer(*dataset, scope, path, schema::journal);
-    const schema::JournalColumns columns(layer);
-    std::vector<JournalEntry> entries;
-    while (layer.next()) {
-        entries.push_back({layer.required_integer_at(columns.edit), layer.required_text_at(columns.time),
-                           layer.required_text_at(columns.command), layer.required_text_at(columns.arguments)});
-    }
-    return entries;
-}
-
-bool is_model(const std::string& path) {
-    GdalScope scope(path);
-    if (!is_connection(path)) {
-        return holds_model(path);
-    }
-    try {
-        return open_model(path, scope) != nullptr;
-    } catch (const InputError&) {
-        return false;
-    }
 }
 
 }  // namespace terratet

@@ -189,21 +189,21 @@ Criteria criteria_of(const json& j) {
     return c;
 }
 
-json fault_options_json(const FaultOptions& o) {
+json fault_options_json(const BarrierOptions& o) {
     return {{"spacing", number(o.spacing)},
             {"width", number(o.width)},
             {"snap", number(o.snap)},
             {"max_seeds", o.max_seeds},
-            {"mode", o.mode == FaultMode::exact ? "exact" : "paired"},
+            {"mode", o.mode == SeedMode::exact ? "exact" : "paired"},
             {"refine", o.refine}};
 }
 
-FaultOptions fault_options_of(const json& j) {
+BarrierOptions fault_options_of(const json& j) {
     return {number(j.at("spacing")),
             number(j.at("width")),
             number(j.at("snap")),
             count(j.at("max_seeds")),
-            is_second(j.at("mode"), "paired", "exact") ? FaultMode::exact : FaultMode::paired,
+            is_second(j.at("mode"), "paired", "exact") ? SeedMode::exact : SeedMode::paired,
             j.at("refine").get<bool>()};
 }
 
@@ -238,7 +238,7 @@ RowCounts counts_of(const json& j) {
 }  // namespace
 
 RowCounts row_counts(const Model& model) {
-    return {model.samples.size(), model.boreholes.size(), model.surfaces.size() + 2 * model.faults.size(),
+    return {model.samples.size(), model.boreholes.size(), model.surfaces.size() + 2 * model.barriers.size(),
             model.vertices.size()};
 }
 
@@ -249,7 +249,7 @@ Meta to_meta(const Model& model, const std::vector<std::string>& property_column
             {"properties", properties_json(model.properties, property_columns, censored_columns).dump()},
             {"criteria", criteria_json(model.criteria).dump()},
             {"density", model.density == DensityMode::paper ? "paper" : "canonical"},
-            {"fault_options", fault_options_json(model.fault_options).dump()},
+            {"fault_options", fault_options_json(model.barrier_options).dump()},
             {"regions", region_names_json(model.region_names).dump()},
             {"domain", domain_json(model.domain).dump()},
             {"estimator", model.estimator},
@@ -286,7 +286,7 @@ MetaContent from_meta(const Meta& meta, const std::string& file) {
             content.censored_columns.push_back(property.value("censored_column", ""));
         }
         content.model.criteria = criteria_of(parsed("criteria"));
-        content.model.fault_options = fault_options_of(parsed("fault_options"));
+        content.model.barrier_options = fault_options_of(parsed("fault_options"));
         content.model.region_names = region_names_of(parsed("regions"));
         content.model.domain = domain_of(parsed("domain"));
         content.counts = counts_of(parsed("counts"));

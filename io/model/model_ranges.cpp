@@ -25,7 +25,7 @@ class Ranges {
     void frame();
     void properties(const std::vector<std::string>& columns, const std::vector<std::string>& censored_columns);
     void criteria();
-    void fault_options();
+    void barrier_options();
     void domain();
     void regions();
     void estimator();
@@ -140,8 +140,8 @@ void Ranges::criteria() {
     }
 }
 
-void Ranges::fault_options() {
-    const FaultOptions& o = model_.fault_options;
+void Ranges::barrier_options() {
+    const BarrierOptions& o = model_.barrier_options;
     require_length(o.spacing, "fault_options", "spacing");
     require_length(o.width, "fault_options", "width");
     require_length(o.snap, "fault_options", "snap");
@@ -190,7 +190,7 @@ void require_ranges(const Model& model, const std::vector<std::string>& columns,
     ranges.frame();
     ranges.properties(columns, censored_columns);
     ranges.criteria();
-    ranges.fault_options();
+    ranges.barrier_options();
     ranges.domain();
     ranges.regions();
     ranges.estimator();

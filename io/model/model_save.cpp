@@ -9,12 +9,12 @@
 #include <ctime>
 #include <optional>
 
+#include "io/base/output_file.hpp"
 #include "io/model/model_meta.hpp"
 #include "io/model/model_schema.hpp"
-#include "io/model_store.hpp"
-#include "io/base/output_file.hpp"
-#include "io/source.hpp"
 #include "io/model/storable.hpp"
+#include "io/model_store.hpp"
+#include "io/source.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -64,7 +64,7 @@ void require_storable(const Model& model, const JournalEntry& entry) {
     for (const Surface& surface : model.surfaces) {
         require_surface(surface);
     }
-    for (const Fault& fault : model.faults) {
+    for (const Barrier& fault : model.barriers) {
         require_storable(fault.name, "a fault's name");
         require_surface(fault.sheet);
         require_surface(fault.margin);
@@ -250,8 +250,8 @@ void ModelWriter::write_surfaces() {
         layer.set(columns.kind, std::string(to_string(surface.kind)));
         layer.write();
     }
-    for (std::size_t f = 0; f < model_.faults.size(); ++f) {
-        const Fault& fault = model_.faults[f];
+    for (std::size_t f = 0; f < model_.barriers.size(); ++f) {
+        const Barrier& fault = model_.barriers[f];
         for (const bool margin : {false, true}) {
             set_mesh(layer, columns, margin ? fault.margin : fault.sheet);
             layer.set(columns.kind, to_string(fault.sheet.kind) + std::string(margin ? "_margin" : "_sheet"));

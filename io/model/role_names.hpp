@@ -31,7 +31,7 @@ inline std::string owner_name(const Model& model, const Vertex& vertex) {
     }
     const auto owner = static_cast<std::size_t>(vertex.owner);
     if (vertex.role == Role::seed) {
-        return model.faults[owner].name;
+        return model.barriers[owner].name;
     }
     const std::int32_t hole = vertex.role == Role::sample ? model.samples.borehole[owner] : -1;
     return hole < 0 ? std::string() : model.boreholes[static_cast<std::size_t>(hole)].id;

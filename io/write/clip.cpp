@@ -188,7 +188,7 @@ class Clipper {
         add_pyramid(a[first], {a[second], a[third], b[third], b[second]}, turned);
     }
 
-    [[nodiscard]] bool is_gap(std::size_t cell) const { return view_.cells.fault[result_.parent[cell]] >= 0; }
+    [[nodiscard]] bool is_gap(std::size_t cell) const { return view_.cells.barrier[result_.parent[cell]] >= 0; }
 
     /// The whole cell beyond facet k of a whole cell; −1 if there is none there. A whole cell keeps the order of its
     /// corners, so its facet k is its parent's.

@@ -11,20 +11,20 @@ namespace {
 constexpr double wanted_edge = 0.3;  ///< over l_min: shorter ones make a cell worse
 
 std::int32_t gap_of(const ModelView& view, std::uint32_t parent) {
-    return view.cells.fault[parent];
+    return view.cells.barrier[parent];
 }
 
-CutMesh cut_mesh(const ModelView& view, const ClippedMesh& mesh) {
-    CutMesh result;
+MendableMesh cut_mesh(const ModelView& view, const ClippedMesh& mesh) {
+    MendableMesh result;
     result.box = view.model.domain.extent;
     result.least_edge = wanted_edge * smallest_l_min(view.model.criteria);
     result.points = mesh.points;
     for (const ClippedMesh::Place place : mesh.place) {
         const bool is_vertex = place < view.model.vertices.size();
         const Role role = is_vertex ? view.model.vertices[place].role : Role::domain;
-        result.hold.push_back(role == Role::sample ? CutMesh::Hold::fixed
-                              : role == Role::seed ? CutMesh::Hold::surface
-                                                   : CutMesh::Hold::free);
+        result.hold.push_back(role == Role::sample ? MendableMesh::Hold::fixed
+                              : role == Role::seed ? MendableMesh::Hold::surface
+                                                   : MendableMesh::Hold::free);
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
         const std::int32_t gap = gap_of(view, mesh.parent[c]);
@@ -43,7 +43,7 @@ bool on_face(const Box3& box, const Vec3& p) {
     return false;
 }
 
-void take_points(const ModelView& view, const CutMesh& mended, ClippedMesh& mesh) {
+void take_points(const ModelView& view, const MendableMesh& mended, ClippedMesh& mesh) {
     constexpr std::uint32_t none = 0xffffffffU;
     std::vector<std::uint32_t> parent_at(mended.points.size(), none);
     for (std::size_t c = mesh.cells.size(); c-- > 0;) {
@@ -51,7 +51,7 @@ void take_points(const ModelView& view, const CutMesh& mended, ClippedMesh& mesh
             parent_at[v] = mesh.parent[c];
         }
     }
-    const OwnSideField field(view.mesh, view.cells.fault, view.model);
+    const OwnSideField field(view.mesh, view.cells.barrier, view.model);
     const std::size_t first = view.model.vertices.size() + mesh.cuts.size();
     for (std::size_t i = 0; i < mended.points.size(); ++i) {
         if (mended.moved[i] != 0 && parent_at[i] != none) {
@@ -63,7 +63,7 @@ void take_points(const ModelView& view, const CutMesh& mended, ClippedMesh& mesh
     }
 }
 
-void take_cells(const CutMesh& mended, ClippedMesh& mesh) {
+void take_cells(const MendableMesh& mended, ClippedMesh& mesh) {
     std::vector<std::uint32_t> order;
     for (std::uint32_t c = 0; c < mended.cells.size(); ++c) {
         if (mended.cells[c].corners[0] != mended.cells[c].corners[1]) {
@@ -76,7 +76,7 @@ void take_cells(const CutMesh& mended, ClippedMesh& mesh) {
     mesh.region.clear();
     mesh.changed.clear();
     for (const std::uint32_t c : order) {
-        const CutMesh::Cell& cell = mended.cells[c];
+        const MendableMesh::Cell& cell = mended.cells[c];
         mesh.cells.push_back(cell.corners);
         mesh.parent.push_back(cell.parent);
         mesh.region.push_back(std::max(cell.part, -1));
@@ -87,8 +87,8 @@ void take_cells(const CutMesh& mended, ClippedMesh& mesh) {
 }  // namespace
 
 void mend_clipped(const ModelView& view, ClippedMesh& mesh, const Progress& progress) {
-    CutMesh mended = cut_mesh(view, mesh);
-    mend_cuts(mended, progress);
+    MendableMesh mended = cut_mesh(view, mesh);
+    mend_cells(mended, progress);
     take_cells(mended, mesh);
     take_points(view, mended, mesh);
     drop_unused_points(mesh);

@@ -17,7 +17,7 @@ constexpr double least_share = 0.1;  ///< of l_min: no edge should be shorter
 /// Points on facets that stay: of gaps, and where the mesh ends but not at the extent.
 std::vector<char> points_on_surfaces(const ModelView& view, const ClippedMesh& mesh) {
     std::vector<char> result(mesh.points.size(), 0);
-    const auto is_gap = [&](std::size_t cell) { return view.cells.fault[mesh.parent[cell]] >= 0; };
+    const auto is_gap = [&](std::size_t cell) { return view.cells.barrier[mesh.parent[cell]] >= 0; };
     for (const ClippedMesh::Facet& facet : mesh.facets) {
         const bool stays =
             facet.beyond < 0 ? !facet.on_extent : is_gap(facet.cell) != is_gap(static_cast<std::size_t>(facet.beyond));
@@ -45,7 +45,7 @@ ClippedShapes clipped_shapes(const ModelView& view, const ClippedMesh& mesh) {
     const double least_edge = least_share * smallest_l_min(view.model.criteria);
     std::vector<double> angles;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (view.cells.fault[mesh.parent[c]] >= 0) {
+        if (view.cells.barrier[mesh.parent[c]] >= 0) {
             continue;
         }
         const auto& v = mesh.cells[c];

@@ -55,7 +55,7 @@ double linear_mix(double a, double b, double t) {
 }  // namespace
 
 void keep_to_own_sides(const Model& model, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts) {
-    const FaultProximity faults = model_proximity(model);
+    const BarrierQuery faults = model_proximity(model);
     ClippedMesh so_far;
     so_far.cuts = std::move(cuts);
     const std::vector<Vertex> vertices = place_vertices(so_far, model);

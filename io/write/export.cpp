@@ -64,7 +64,7 @@ double rounded_1_2_5(double value) {
 }  // namespace
 
 std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap) {
-    if (gap == FaultGap::collapse && !model.faults.empty() && (format == "VTU" || format == "GLTF")) {
+    if (gap == FaultGap::collapse && !model.barriers.empty() && (format == "VTU" || format == "GLTF")) {
         return Collapsing::all;
     }
     return has_bounds(model) ? std::optional(Collapsing::bounds) : std::nullopt;

@@ -9,8 +9,8 @@
 #include <map>
 #include <utility>
 
-#include "io/write/scene.hpp"
 #include "io/write/clip.hpp"
+#include "io/write/scene.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
 
 namespace terratet {
@@ -156,14 +156,14 @@ std::vector<ScenePart> tessellation_surfaces(const ModelView& view, const SceneF
 }
 
 ScenePart fault_sheet(const Model& model, std::size_t index, const SceneFrame& frame) {
-    const Fault& fault = model.faults[index];
+    const Barrier& fault = model.barriers[index];
     ScenePart part;
     part.name = std::string(to_string(fault.sheet.kind)) + ": " + fault.name;
     // Frosted glass with a tint: a strong colour would turn what is seen through it into mud.
     const Color tint = class_color(index + 5);
     part.color = {0.4 + 0.6 * tint.r, 0.4 + 0.6 * tint.g, 0.4 + 0.6 * tint.b};
     part.opacity = 0.5;
-    const FaultProximity faults(model.faults);
+    const BarrierQuery faults(model.barriers);
     const ModelBounds bounds(model.domain, faults);
     for (const Triangle& t : fault.sheet.triangles) {
         const auto& v = fault.sheet.vertices;

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "io/export.hpp"
 #include "io/base/output_file.hpp"
+#include "io/export.hpp"
 #include "io/write/scene.hpp"
 
 namespace terratet {
@@ -18,8 +18,8 @@ OutputRecord write_gltf(const ModelView& view, const std::string& path, const Ex
 
     std::vector<ScenePart> parts = tessellation_surfaces(view, frame);
     report_progress(options.progress, "write gltf", 0.4);
-    for (std::size_t f = 0; f < view.model.faults.size(); ++f) {
-        if (!is_bound(view.model.faults[f].sheet.kind)) {  // the domain ends there
+    for (std::size_t f = 0; f < view.model.barriers.size(); ++f) {
+        if (!is_bound(view.model.barriers[f].sheet.kind)) {  // the domain ends there
             parts.push_back(fault_sheet(view.model, f, frame));
         }
     }

@@ -12,9 +12,9 @@
 #include <mutex>
 
 #include "interp/voxels/resample.hpp"
-#include "io/read/column_names.hpp"
-#include "io/export.hpp"
 #include "io/base/output_file.hpp"
+#include "io/export.hpp"
+#include "io/read/column_names.hpp"
 #include "io/write/vdb_file.hpp"
 
 namespace terratet {
@@ -118,12 +118,12 @@ void describe(openvdb::MetaMap& meta, const Property& property) {
 
 /// \param values  of the property, or of something like one, at the vertices
 openvdb::FloatGrid::Ptr make_grid(const ModelView& view, const Property& property, const std::vector<double>& values,
-                                  const Lattice& lattice, const FaultProximity& faults, const Progress& progress) {
+                                  const Lattice& lattice, const BarrierQuery& faults, const Progress& progress) {
     std::vector<double> scaled = values;
     for (double& value : scaled) {
         value = to_scale(property, value);
     }
-    const OwnSide sides(view.mesh, view.cells.fault, faults, view.model.domain.extent);
+    const OwnSide sides(view.mesh, view.cells.barrier, faults, view.model.domain.extent);
     LinearField field{&view.mesh, scaled};
     field.sides = &sides;
     field.log10 = property.scale == Scale::log10;
@@ -160,10 +160,10 @@ OutputRecord write_vdb(const ModelView& view, const std::string& path, const Exp
     }
     names = distinct_names(std::move(names), std::array{extrapolation_name});
 
-    const FaultProximity faults = model_proximity(model);
+    const BarrierQuery faults = model_proximity(model);
     openvdb::GridPtrVec grids;
     const auto add = [&](const std::string& name, const Property& property, const std::vector<double>& values,
-                         const FaultProximity& barriers) {
+                         const BarrierQuery& barriers) {
         const auto grid = make_grid(view, property, values, lattice, barriers, options.progress);
         grid->setName(name);
         grid->setTransform(make_transform(lattice, model.frame, options.local_origin));

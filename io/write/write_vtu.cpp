@@ -10,10 +10,10 @@
 #include <optional>
 #include <variant>
 
-#include "io/write/clip.hpp"
-#include "io/read/column_names.hpp"
 #include "io/export.hpp"
 #include "io/model/role_names.hpp"
+#include "io/read/column_names.hpp"
+#include "io/write/clip.hpp"
 #include "io/write/vtk_xml.hpp"
 #include "tess/mesh/quality.hpp"
 
@@ -176,7 +176,7 @@ std::vector<VtkStrings> field_data(const Model& model, const CellTable& cells, c
         }
     }
     VtkStrings faults{"Faults", {}};
-    for (const Fault& fault : model.faults) {
+    for (const Barrier& fault : model.barriers) {
         faults.values.push_back(fault.name);
     }
     VtkStrings reasons{"Reasons", {}};
@@ -236,7 +236,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     }
     piece.active_scalars = names.empty() ? "" : names[0];
 
-    const auto fault = inherited<std::int32_t>(view.cells.fault, contents.parent);
+    const auto fault = inherited<std::int32_t>(view.cells.barrier, contents.parent);
     const auto reason = inherited<std::uint8_t>(view.cells.reason, contents.parent);
     piece.cell_data = {vtk_array("MaterialIDs", contents.region),
                        vtk_array("fault", fault),

@@ -6,7 +6,7 @@
 
 namespace terratet {
 
-TriangleCorners corners(const FaultMesh& mesh, const Triangle& t) {
+TriangleCorners corners(const TriMesh& mesh, const Triangle& t) {
     return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
 }
 
@@ -14,7 +14,7 @@ Vec3 area_vector(const TriangleCorners& t) {
     return 0.5 * cross(t[1] - t[0], t[2] - t[0]);
 }
 
-double area(const FaultMesh& mesh) {
+double area(const TriMesh& mesh) {
     double sum = 0;
     for (const Triangle& t : mesh.triangles) {
         sum += length(area_vector(corners(mesh, t)));
@@ -27,7 +27,7 @@ Vec3 unit(const Vec3& a) {
     return size > 0 ? a / size : Vec3{};
 }
 
-std::vector<Vec3> vertex_normals(const FaultMesh& mesh) {
+std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
     std::vector<Vec3> normals(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         const Vec3 weighted = area_vector(corners(mesh, t));
@@ -41,7 +41,7 @@ std::vector<Vec3> vertex_normals(const FaultMesh& mesh) {
     return normals;
 }
 
-std::vector<RimEdge> rim_edges(const FaultMesh& mesh) {
+std::vector<RimEdge> rim_edges(const TriMesh& mesh) {
     const auto key = [](std::uint32_t a, std::uint32_t b) {
         return std::uint64_t{std::min(a, b)} << 32U | std::max(a, b);
     };
@@ -62,7 +62,7 @@ std::vector<RimEdge> rim_edges(const FaultMesh& mesh) {
     return rim;
 }
 
-void compact(FaultMesh& mesh) {
+void compact(TriMesh& mesh) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> place(mesh.points.size(), unused);
     for (const Triangle& t : mesh.triangles) {
@@ -85,7 +85,7 @@ void compact(FaultMesh& mesh) {
     }
 }
 
-void append(FaultMesh& mesh, const FaultMesh& more) {
+void append(TriMesh& mesh, const TriMesh& more) {
     const auto offset = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
     for (const Triangle& t : more.triangles) {

@@ -7,41 +7,45 @@
 #include <span>
 #include <vector>
 
-#include "tess/geometry.hpp"
 #include "tess/base/triangle_grid.hpp"
+#include "tess/geometry.hpp"
 
 namespace terratet {
 
 /// An oriented mesh; after repair edge-manifold. Normals follow the right-hand rule.
-struct FaultMesh {
+struct TriMesh {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
 };
 
-TriangleCorners corners(const FaultMesh& mesh, const Triangle& t);
+inline bool has(const Triangle& t, std::uint32_t v) {
+    return t[0] == v || t[1] == v || t[2] == v;
+}
+
+TriangleCorners corners(const TriMesh& mesh, const Triangle& t);
 
 /// Half the cross product of two edges: normal times area.
 Vec3 area_vector(const TriangleCorners& t);
-double area(const FaultMesh& mesh);
+double area(const TriMesh& mesh);
 
 /// a/|a|, or zero for a vector without length.
 Vec3 unit(const Vec3& a);
 
 /// Area-weighted unit normals at the points; zero where a point has no triangle.
-std::vector<Vec3> vertex_normals(const FaultMesh& mesh);
+std::vector<Vec3> vertex_normals(const TriMesh& mesh);
 
 /// An edge with one triangle, in that triangle's sense: the surface is on its left, seen from above.
 struct RimEdge {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
 };
-std::vector<RimEdge> rim_edges(const FaultMesh& mesh);
+std::vector<RimEdge> rim_edges(const TriMesh& mesh);
 
 /// Drops points without a triangle; the others keep their order.
-void compact(FaultMesh& mesh);
+void compact(TriMesh& mesh);
 
 /// Adds the triangles of `more` with their points, unconnected.
-void append(FaultMesh& mesh, const FaultMesh& more);
+void append(TriMesh& mesh, const TriMesh& more);
 
 /// The largest distance of the triangle's points to their nearest corner: the circumradius when acute, less and reached
 /// on the longest edge when obtuse.

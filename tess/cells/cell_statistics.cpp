@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tess/refine/insertion_rule.hpp"
-#include "tess/mesh/quality.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/refine/insertion_rule.hpp"
 
 namespace terratet {
 namespace {
@@ -25,7 +25,7 @@ double quantile(const std::vector<float>& sorted, double q) {
 }  // namespace
 
 CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const CellTable& cells,
-                               const FaultProximity& barriers) {
+                               const BarrierQuery& barriers) {
     CellStatistics s;
     s.vertices = mesh.points.size();
     s.tetrahedra = mesh.cells.size();
@@ -39,7 +39,7 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
     double longest = 0;
     std::vector<float> dihedrals;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (cells.fault[c] >= 0) {
+        if (cells.barrier[c] >= 0) {
             ++s.gap_tetrahedra;
             continue;
         }

@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "tess/refine/insertion_rule.hpp"
 #include "tess/base/point_grid.hpp"
 #include "tess/mesh/quality.hpp"
 #include "tess/model/regions.hpp"
+#include "tess/refine/insertion_rule.hpp"
 
 namespace terratet {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// which needs all vertices.
 class Explainer {
   public:
-    Explainer(const Model& model, const TetMesh& mesh, const FaultProximity& barriers)
+    Explainer(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers)
         : mesh_(mesh),
           rule_(model.criteria, model.domain, model.frame, barriers, model.properties, model.vertex_values) {
         for (const Vec3& p : mesh.points) {
@@ -79,7 +79,7 @@ void name_regions(const Model& model, const TetMesh& mesh, CellTable& table) {
 
 }  // namespace
 
-CellTable measure_cells(const Model& model, const TetMesh& mesh, const FaultProximity& barriers) {
+CellTable measure_cells(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers) {
     const std::size_t n = mesh.cells.size();
     CellTable table{regions(mesh, model.vertices, barriers, model.domain), {}, {}, {}, {}, {}};
     table.radius_edge.resize(n);
@@ -95,12 +95,12 @@ CellTable measure_cells(const Model& model, const TetMesh& mesh, const FaultProx
     return table;
 }
 
-CellTable describe_cells(const Model& model, const TetMesh& mesh, const FaultProximity& barriers) {
+CellTable describe_cells(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers) {
     CellTable table = measure_cells(model, mesh, barriers);
     Explainer explain(model, mesh, barriers);
     table.reason.resize(mesh.cells.size());
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        table.reason[c] = table.fault[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
+        table.reason[c] = table.barrier[c] >= 0 ? Reason::fault_gap : explain(mesh.cells[c]);
     }
     return table;
 }

@@ -8,14 +8,13 @@
 
 namespace terratet {
 
-std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh,
-                                               const FaultProximity& barriers) {
+std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers) {
     std::vector<CrossingEdge> crossing;
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        const auto fault = static_cast<std::int32_t>(f);
-        const Box3 box = bounding_box(model.faults[f].sheet.vertices);
+    for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+        const auto barrier = static_cast<std::int32_t>(f);
+        const Box3 box = bounding_box(model.barriers[f].sheet.vertices);
         const auto is_own_seed = [&](std::uint32_t v) {
-            return model.vertices[v].role == Role::seed && barriers.meet(fault, model.vertices[v].owner);
+            return model.vertices[v].role == Role::seed && barriers.meet(barrier, model.vertices[v].owner);
         };
         std::vector<std::array<std::uint32_t, 2>> suspects;
         for (const auto& cell : mesh.cells) {
@@ -29,8 +28,8 @@ std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh
         std::ranges::sort(suspects);
         suspects.erase(std::ranges::unique(suspects).begin(), suspects.end());
         for (const auto& [a, b] : suspects) {
-            if (barriers.crosses(fault, mesh.points[a], mesh.points[b])) {
-                crossing.push_back({a, b, fault});
+            if (barriers.crosses(barrier, mesh.points[a], mesh.points[b])) {
+                crossing.push_back({a, b, barrier});
             }
         }
     }

@@ -17,8 +17,8 @@ namespace terratet {
 struct CrossingEdge {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    std::int32_t fault = -1;
+    std::int32_t barrier = -1;
 };
-std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh, const FaultProximity& barriers);
+std::vector<CrossingEdge> fault_crossing_edges(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers);
 
 }  // namespace terratet

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tess/barrier/query/own_side.hpp"
 #include "tess/mesh/gap_cell.hpp"
 #include "tess/mesh/mesh_walk.hpp"
-#include "tess/barrier/query/own_side.hpp"
 
 namespace terratet {
 
-std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh, const FaultProximity& barriers) {
+std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers) {
     std::vector<Fidelity> result(model.properties.size());
     std::vector<double> squares(model.properties.size(), 0);
     MeshWalk walk(mesh);
@@ -28,8 +28,8 @@ std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh, const Fa
         if (!position) {
             continue;
         }
-        const std::int32_t gap = gap_fault(mesh.cells[position->cell], model.vertices);
-        if (gap >= 0 && model.faults[static_cast<std::size_t>(gap)].sheet.kind != SurfaceKind::fault) {
+        const std::int32_t gap = gap_barrier(mesh.cells[position->cell], model.vertices);
+        if (gap >= 0 && model.barriers[static_cast<std::size_t>(gap)].sheet.kind != SurfaceKind::fault) {
             keep_to_own_side(*position, p, mesh, model.vertices);
         }
         for (std::size_t property = 0; property < result.size(); ++property) {

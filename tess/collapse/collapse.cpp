@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "tess/barrier/query/model_bounds.hpp"
 #include "tess/collapse/collapse_image.hpp"
 #include "tess/collapse/collapse_mending.hpp"
-#include "tess/barrier/query/model_bounds.hpp"
 #include "tess/collapse/node_splitter.hpp"
 #include "tess/mesh/quality.hpp"
 
@@ -38,16 +38,16 @@ CollapseImage collapsed_image(const TetMesh& mesh, std::vector<FaultNode>& nodes
 
 /// Is what is left of a bound's gap beyond it? Close to a wall that is for the wall to say, not for the outline, from
 /// which it may be a little off.
-bool is_beyond(std::int32_t gap, const Vec3& p, const FaultProximity& faults, const Outline& outline) {
-    const Fault& bound = faults.faults()[static_cast<std::size_t>(gap)];
+bool is_beyond(std::int32_t gap, const Vec3& p, const BarrierQuery& barriers, const Outline& outline) {
+    const Barrier& bound = barriers.barriers()[static_cast<std::size_t>(gap)];
     const bool at_wall =
-        bound.sheet.kind == SurfaceKind::domain && faults.distance_to_sheet(gap, p) < close_to_wall * bound.spacing;
-    return is_above_ground(faults, p) || (at_wall ? faults.side_of(gap, p) > 0 : !outline.contains(p));
+        bound.sheet.kind == SurfaceKind::domain && barriers.distance_to_sheet(gap, p) < close_to_wall * bound.spacing;
+    return is_above_ground(barriers, p) || (at_wall ? barriers.side_of(gap, p) > 0 : !outline.contains(p));
 }
 
 CellStates cell_states(const Model& model, const CellTable& before, const std::vector<char>& selected,
                        const CollapseImage& image) {
-    const FaultProximity faults(model.faults);
+    const BarrierQuery barriers(model.barriers);
     const Outline outline(model.domain.outline);
     CellStates states;
     for (const Cell& cell : image.cells()) {
@@ -56,11 +56,11 @@ CellStates cell_states(const Model& model, const CellTable& before, const std::v
             sum = sum + image.position(corner.node);
         }
         const Vec3 centroid = 0.25 * sum;
-        const std::int32_t gap = before.fault[cell.parent];
-        const bool bound = gap >= 0 && is_bound(model.faults[static_cast<std::size_t>(gap)].sheet.kind);
+        const std::int32_t gap = before.barrier[cell.parent];
+        const bool bound = gap >= 0 && is_bound(model.barriers[static_cast<std::size_t>(gap)].sheet.kind);
         const bool collapsed = gap >= 0 && selected[static_cast<std::size_t>(gap)] != 0;
-        const bool beyond = bound ? is_beyond(gap, centroid, faults, outline) : before.beyond[cell.parent] != 0;
-        states.fault.push_back(collapsed ? -1 : gap);
+        const bool beyond = bound ? is_beyond(gap, centroid, barriers, outline) : before.beyond[cell.parent] != 0;
+        states.barrier.push_back(collapsed ? -1 : gap);
         states.beyond.push_back(beyond ? 1 : 0);
         states.in_extent.push_back(!beyond && model.domain.extent.contains(centroid) ? 1 : 0);
         states.region.push_back(cell.made ? -1 : before.region[cell.parent]);
@@ -130,7 +130,7 @@ void fill_cells(const CellTable& before, const CollapseImage& image, CellStates 
         table.aspect.push_back(static_cast<float>(quality.aspect));
         table.dihedral_min_deg.push_back(static_cast<float>(quality.dihedral_min_deg));
     }
-    table.fault = std::move(states.fault);
+    table.barrier = std::move(states.barrier);
     table.beyond = std::move(states.beyond);
     table.in_extent = std::move(states.in_extent);
     table.region_count = before.region_count;
@@ -185,7 +185,7 @@ void drop_beyond(CollapsedModel& result) {
         }
     }
     keep(table.region, kept_cell);
-    keep(table.fault, kept_cell);
+    keep(table.barrier, kept_cell);
     keep(table.in_extent, kept_cell);
     keep(table.reason, kept_cell);
     keep(table.radius_edge, kept_cell);
@@ -197,17 +197,17 @@ void drop_beyond(CollapsedModel& result) {
 }  // namespace
 
 bool has_bounds(const Model& model) {
-    return std::ranges::any_of(model.faults, [](const Fault& fault) { return is_bound(fault.sheet.kind); });
+    return std::ranges::any_of(model.barriers, [](const Barrier& barrier) { return is_bound(barrier.sheet.kind); });
 }
 
 CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
     std::vector<char> selected;
-    for (const Fault& fault : model.faults) {
-        selected.push_back(which == Collapsing::all || is_bound(fault.sheet.kind) ? 1 : 0);
+    for (const Barrier& barrier : model.barriers) {
+        selected.push_back(which == Collapsing::all || is_bound(barrier.sheet.kind) ? 1 : 0);
     }
     std::vector<FaultNode> nodes = fault_nodes(model, mesh, selected);
     CollapseImage image = collapsed_image(mesh, nodes);
-    const bool exact = model.fault_options.mode == FaultMode::exact;
+    const bool exact = model.barrier_options.mode == SeedMode::exact;
     const std::vector<Vec3> uncut = exact ? image.cut_edges(model, selected) : std::vector<Vec3>{};
     CellStates states = cell_states(model, cells, selected, image);
     SplitImage split = split_nodes(model, selected, image, nodes, states);
@@ -221,31 +221,32 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     mend_collapsed(result);
 
     CollapseReport& report = result.report;
-    report.dropped_cells =
-        static_cast<std::size_t>(std::ranges::count_if(cells.fault, [](std::int32_t fault) { return fault >= 0; })) -
-        static_cast<std::size_t>(std::ranges::count_if(
-            image.cells(), [&](const Cell& cell) { return !cell.made && cells.fault[cell.parent] >= 0; }));
+    report.dropped_cells = static_cast<std::size_t>(std::ranges::count_if(
+                               cells.barrier, [](std::int32_t barrier) { return barrier >= 0; })) -
+                           static_cast<std::size_t>(std::ranges::count_if(image.cells(), [&](const Cell& cell) {
+                               return !cell.made && cells.barrier[cell.parent] >= 0;
+                           }));
     report.added_places = image.added_nodes();
     report.split_places = split.split_places;
     report.split_area = split.split_area;
-    const FaultProximity proximity(model.faults);
+    const BarrierQuery proximity(model.barriers);
     for (const FaultNode& node : nodes) {
         if (node.is_vertex() || node.state == FaultNode::State::joined || !model.domain.extent.contains(node.base)) {
             continue;
         }
-        const std::int32_t fault = model.vertices[node.seeds[0]].owner;
-        const double spacing = model.faults[static_cast<std::size_t>(fault)].spacing;
-        if (proximity.distance_to_sheet(fault, node.base) < 1e-3 * spacing) {
+        const std::int32_t barrier = model.vertices[node.seeds[0]].owner;
+        const double spacing = model.barriers[static_cast<std::size_t>(barrier)].spacing;
+        if (proximity.distance_to_sheet(barrier, node.base) < 1e-3 * spacing) {
             (node.state == FaultNode::State::apart ? report.apart : report.aside).push_back(node.base);
         }
     }
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        report.sheet_area += selected[f] != 0 ? statistics(model.faults[f].sheet).area : 0;
+    for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+        report.sheet_area += selected[f] != 0 ? statistics(model.barriers[f].sheet).area : 0;
     }
     if (exact) {
         std::ranges::copy_if(uncut, std::back_inserter(report.aside),
                              [&](const Vec3& p) { return model.domain.extent.contains(p); });
-        std::ranges::copy(split.off_faults, std::back_inserter(report.aside));
+        std::ranges::copy(split.off_barriers_of, std::back_inserter(report.aside));
     }
     report.conformity = check_conformity(result.mesh, result.cells.region, model.domain.hull);
     drop_beyond(result);

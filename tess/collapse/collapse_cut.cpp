@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "tess/collapse/collapse_image.hpp"
 #include "tess/barrier/query/sheet_crossings.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/collapse/collapse_image.hpp"
 
 namespace terratet {
 namespace {
@@ -30,7 +30,7 @@ Edge edge_of(std::uint32_t a, std::uint32_t b) {
 class CollapseImage::Cutter {
   public:
     Cutter(CollapseImage& image, const Model& model, const std::vector<char>& selected)
-        : image_(image), model_(model), crossings_(model.faults, model.domain.extent, selected, collect_edges()) {
+        : image_(image), model_(model), crossings_(model.barriers, model.domain.extent, selected, collect_edges()) {
         image_.index_stars();
         find_faults();
     }
@@ -42,7 +42,7 @@ class CollapseImage::Cutter {
             if (!exists(edge)) {
                 continue;
             }
-            const std::vector<FaultCrossings::Crossing> met = faults_between(edge);
+            const std::vector<SheetCrossings::Crossing> met = faults_between(edge);
             if (met.empty()) {
                 continue;
             }
@@ -73,15 +73,15 @@ class CollapseImage::Cutter {
         return std::ranges::find(cell.corners, node, &Corner::node) != cell.corners.end();
     }
 
-    [[nodiscard]] bool is_on(std::uint32_t node, std::int32_t fault) const {
-        return std::ranges::find(on_[node], fault) != on_[node].end();
+    [[nodiscard]] bool is_on(std::uint32_t node, std::int32_t barrier) const {
+        return std::ranges::find(on_[node], barrier) != on_[node].end();
     }
 
     void add_edge(std::uint32_t a, std::uint32_t b) {
-        const auto of_fault = [&](std::uint32_t node) {
+        const auto of_barrier = [&](std::uint32_t node) {
             return is_made(node) || model_.vertices[node].role == Role::seed;
         };
-        if (a != b && of_fault(a) && of_fault(b)) {
+        if (a != b && of_barrier(a) && of_barrier(b)) {
             open_.push_back(edge_of(a, b));
         }
     }
@@ -118,7 +118,7 @@ class CollapseImage::Cutter {
         on_.resize(image_.positions_.size());
         for (std::uint32_t node = 0; node < on_.size(); ++node) {
             if (is_made(node)) {
-                on_[node] = image_.fault_nodes_[image_.fault_node_[node]].faults;
+                on_[node] = image_.fault_nodes_[image_.fault_node_[node]].barriers;
             }
         }
     }
@@ -130,21 +130,22 @@ class CollapseImage::Cutter {
     }
 
     /// The faults that part its ends, ascending from the first: none that an end is on, or as good as on.
-    std::vector<FaultCrossings::Crossing> faults_between(const Edge& edge) {
+    std::vector<SheetCrossings::Crossing> faults_between(const Edge& edge) {
         const auto [a, b] = edge;
-        std::vector<FaultCrossings::Crossing> met = crossings_(position(a), position(b));
+        std::vector<SheetCrossings::Crossing> met = crossings_(position(a), position(b));
         const double length = distance(position(a), position(b));
-        for (const auto& [at, fault] : met) {
+        for (const auto& [at, barrier] : met) {
             const double near =
-                std::max(near_end, near_fault * model_.faults[static_cast<std::size_t>(fault)].spacing / length);
-            if (is_made(a) && at < near && !is_on(a, fault)) {
-                on_[a].push_back(fault);
+                std::max(near_end, near_fault * model_.barriers[static_cast<std::size_t>(barrier)].spacing / length);
+            if (is_made(a) && at < near && !is_on(a, barrier)) {
+                on_[a].push_back(barrier);
             }
-            if (is_made(b) && 1 - at < near && !is_on(b, fault)) {
-                on_[b].push_back(fault);
+            if (is_made(b) && 1 - at < near && !is_on(b, barrier)) {
+                on_[b].push_back(barrier);
             }
         }
-        std::erase_if(met, [&](const auto& crossing) { return is_on(a, crossing.fault) || is_on(b, crossing.fault); });
+        std::erase_if(met,
+                      [&](const auto& crossing) { return is_on(a, crossing.barrier) || is_on(b, crossing.barrier); });
         return met;
     }
 
@@ -167,10 +168,10 @@ class CollapseImage::Cutter {
         return none;
     }
 
-    void cut(const Edge& edge, std::uint32_t middle, const std::vector<FaultCrossings::Crossing>& met) {
+    void cut(const Edge& edge, std::uint32_t middle, const std::vector<SheetCrossings::Crossing>& met) {
         for (const auto& crossing : met) {
-            if (crossing.at - met[0].at < near_end && !is_on(middle, crossing.fault)) {
-                on_[middle].push_back(crossing.fault);
+            if (crossing.at - met[0].at < near_end && !is_on(middle, crossing.barrier)) {
+                on_[middle].push_back(crossing.barrier);
             }
         }
         image_.split_edge(edge[0], edge[1], middle, Values::of_sides);
@@ -271,7 +272,7 @@ class CollapseImage::Cutter {
     CollapseImage& image_;
     const Model& model_;
     std::vector<Edge> open_;
-    FaultCrossings crossings_;
+    SheetCrossings crossings_;
     std::vector<std::vector<std::int32_t>> on_;  ///< faults that a node is on
     std::set<Edge> led_through_;  ///< edges that got a node which was there: once, as flat cells may turn in circles
     std::vector<Vec3> left_;

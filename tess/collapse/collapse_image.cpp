@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "tess/collapse/collapse_fill.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/collapse/collapse_fill.hpp"
 
 namespace terratet {
 namespace {
@@ -104,7 +104,7 @@ double CollapseImage::longest_edge(const Cell& cell) const {
 }
 
 bool CollapseImage::is_flat(const Cell& cell) const {
-    const bool on_fault = std::ranges::all_of(cell.corners, [&](const Corner& corner) {
+    const bool on_barrier = std::ranges::all_of(cell.corners, [&](const Corner& corner) {
         if (corner.node >= fault_node_.size()) {
             return true;
         }
@@ -112,7 +112,7 @@ bool CollapseImage::is_flat(const Cell& cell) const {
         return at != none && fault_nodes_[at].state != FaultNode::State::aside &&
                positions_[corner.node] == fault_nodes_[at].base;
     });
-    return on_fault && height(cell) < flat_height * longest_edge(cell);
+    return on_barrier && height(cell) < flat_height * longest_edge(cell);
 }
 
 void CollapseImage::index_stars() {

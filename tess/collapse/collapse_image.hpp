@@ -43,7 +43,7 @@ class CollapseImage {
     /// the next without end.
     std::vector<Vec3> cut_edges(const Model& model, const std::vector<char>& selected);
 
-    /// Fault nodes to retreat for the cells to keep a volume, ascending; none when all is well.
+    /// Barrier nodes to retreat for the cells to keep a volume, ascending; none when all is well.
     [[nodiscard]] std::vector<std::uint32_t> culprits() const;
 
     /// Without those that are gone.

@@ -16,17 +16,17 @@ namespace {
 constexpr double wanted_edge = 0.3;  ///< over l_min
 constexpr std::int32_t beyond = -2;
 
-std::vector<CutMesh::Hold> holds(const CollapsedModel& collapsed) {
-    std::vector<CutMesh::Hold> result;
+std::vector<MendableMesh::Hold> holds(const CollapsedModel& collapsed) {
+    std::vector<MendableMesh::Hold> result;
     for (const Vertex& vertex : collapsed.model.vertices) {
         const bool stays = vertex.role == Role::sample || vertex.role == Role::seed;
-        result.push_back(stays ? CutMesh::Hold::fixed : CutMesh::Hold::free);
+        result.push_back(stays ? MendableMesh::Hold::fixed : MendableMesh::Hold::free);
     }
     return result;
 }
 
-CutMesh cut_mesh(const CollapsedModel& collapsed) {
-    CutMesh result;
+MendableMesh cut_mesh(const CollapsedModel& collapsed) {
+    MendableMesh result;
     result.box = collapsed.model.domain.hull;
     result.least_edge = wanted_edge * collapsed.model.criteria.l_min;
     result.points = collapsed.mesh.points;
@@ -34,8 +34,8 @@ CutMesh cut_mesh(const CollapsedModel& collapsed) {
     const CellTable& table = collapsed.cells;
     for (std::uint32_t c = 0; c < collapsed.mesh.cells.size(); ++c) {
         const bool is_beyond = table.beyond[c] != 0;
-        const bool is_gap = table.fault[c] >= 0;
-        const std::int32_t part = is_beyond ? beyond : is_gap ? beyond - 1 - table.fault[c] : table.region[c];
+        const bool is_gap = table.barrier[c] >= 0;
+        const std::int32_t part = is_beyond ? beyond : is_gap ? beyond - 1 - table.barrier[c] : table.region[c];
         result.cells.push_back({collapsed.mesh.cells[c], c, part, !is_beyond && !is_gap, false});
     }
     return result;
@@ -69,16 +69,16 @@ std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<Corners
 }
 
 /// \param near of each point, a cell of the mesh before
-void take_points(const CutMesh& mended, const std::vector<std::uint32_t>& near, CollapsedModel& collapsed) {
+void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& near, CollapsedModel& collapsed) {
     Model& model = collapsed.model;
     std::uint64_t next_id = 0;
     for (const Vertex& vertex : model.vertices) {
         next_id = std::max(next_id, vertex.id + 1);
     }
-    const OwnSideField field(collapsed.mesh, collapsed.cells.fault, model);
+    const OwnSideField field(collapsed.mesh, collapsed.cells.barrier, model);
     const VertexValues before = model.vertex_values;
     for (std::size_t v = 0; v < mended.points.size(); ++v) {
-        if (mended.moved[v] == 0 || near[v] == CutStars::none) {
+        if (mended.moved[v] == 0 || near[v] == MendableStars::none) {
             continue;
         }
         const Blend blend = field.at(mended.points[v], near[v]);
@@ -99,19 +99,19 @@ void take_points(const CutMesh& mended, const std::vector<std::uint32_t>& near, 
 }
 
 template <class T>
-void gather(std::vector<T>& column, const std::vector<CutMesh::Cell>& cells) {
+void gather(std::vector<T>& column, const std::vector<MendableMesh::Cell>& cells) {
     std::vector<T> result;
     result.reserve(cells.size());
-    for (const CutMesh::Cell& cell : cells) {
+    for (const MendableMesh::Cell& cell : cells) {
         result.push_back(column[cell.parent]);
     }
     column = std::move(result);
 }
 
-void take_cells(const std::vector<CutMesh::Cell>& cells, CollapsedModel& collapsed) {
+void take_cells(const std::vector<MendableMesh::Cell>& cells, CollapsedModel& collapsed) {
     CellTable& table = collapsed.cells;
     gather(table.region, cells);
-    gather(table.fault, cells);
+    gather(table.barrier, cells);
     gather(table.beyond, cells);
     gather(table.in_extent, cells);
     gather(table.reason, cells);
@@ -137,15 +137,15 @@ void take_cells(const std::vector<CutMesh::Cell>& cells, CollapsedModel& collaps
 }  // namespace
 
 void mend_collapsed(CollapsedModel& collapsed) {
-    if (collapsed.model.fault_options.mode == FaultMode::exact) {
+    if (collapsed.model.barrier_options.mode == SeedMode::exact) {
         return;  // triangles between three points of a rim part cells that share their nodes, and would be lost
     }
-    CutMesh mended = cut_mesh(collapsed);
-    mend_cuts(mended);
-    std::erase_if(mended.cells, [](const CutMesh::Cell& cell) { return CutStars::gone(cell); });
-    std::ranges::stable_sort(mended.cells, {}, &CutMesh::Cell::parent);
-    std::vector<std::uint32_t> near(mended.points.size(), CutStars::none);
-    for (const CutMesh::Cell& cell : mended.cells) {
+    MendableMesh mended = cut_mesh(collapsed);
+    mend_cells(mended);
+    std::erase_if(mended.cells, [](const MendableMesh::Cell& cell) { return MendableStars::gone(cell); });
+    std::ranges::stable_sort(mended.cells, {}, &MendableMesh::Cell::parent);
+    std::vector<std::uint32_t> near(mended.points.size(), MendableStars::none);
+    for (const MendableMesh::Cell& cell : mended.cells) {
         for (const std::uint32_t v : cell.corners) {
             near[v] = std::min(near[v], cell.parent);
         }

@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "tess/mesh/quality.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/mesh/quality.hpp"
 
 namespace terratet {
 namespace {
@@ -27,14 +27,14 @@ std::map<Vec3, double> reach_of_own_seeds(const Model& model) {
         int count = 0;
     };
     std::map<Vec3, Edges> edges_at;
-    for (const Fault& fault : model.faults) {
-        for (const Surface* part : {&fault.sheet, &fault.margin}) {
+    for (const Barrier& barrier : model.barriers) {
+        for (const Surface* part : {&barrier.sheet, &barrier.margin}) {
             for (const Triangle& t : part->triangles) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const Vec3& a = part->vertices[t[k]];
                     const Vec3& b = part->vertices[t[(k + 1) % 3]];
                     for (const Vec3& end : {a, b}) {
-                        edges_at[end].sum += own_reach * fault.width / fault.spacing * distance(a, b);
+                        edges_at[end].sum += own_reach * barrier.width / barrier.spacing * distance(a, b);
                         ++edges_at[end].count;
                     }
                 }
@@ -57,8 +57,8 @@ std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>
         }
     }
     std::map<Vec3, std::set<std::size_t>> sheets_at;
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {  // junctions go on outside
+    for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+        for (const Surface* part : {&model.barriers[f].sheet, &model.barriers[f].margin}) {  // junctions go on outside
             for (const Vec3& p : part->vertices) {
                 sheets_at[p].insert(f);
             }
@@ -71,22 +71,22 @@ std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>
 
     std::vector<FaultNode> nodes;
     std::map<Vec3, std::size_t> node_at;  // by base
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
-        const Fault& fault = model.faults[f];
-        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
-            const auto plus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k].position});
-            const auto minus = vertex_at.find({static_cast<std::int32_t>(f), fault.seeds[k + 1].position});
+    for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+        const Barrier& barrier = model.barriers[f];
+        for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
+            const auto plus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k].position});
+            const auto minus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k + 1].position});
             if (plus == vertex_at.end() || minus == vertex_at.end()) {
                 continue;
             }
-            Vec3 base = model.frame.snapped(0.5 * (fault.seeds[k].position + fault.seeds[k + 1].position));
-            double nearest = 0.5 * fault.width * (1 + 1e-6);
+            Vec3 base = model.frame.snapped(0.5 * (barrier.seeds[k].position + barrier.seeds[k + 1].position));
+            double nearest = 0.5 * barrier.width * (1 + 1e-6);
             const Vec3 middle = base;
             bool meets = selected[f] != 0;
             for (auto at = sheets_at.lower_bound({middle.x - nearest, -max_coordinate, -max_coordinate});
                  at != sheets_at.end() && at->first.x <= middle.x + nearest; ++at) {
                 if (at->second.contains(f) && distance(at->first, middle) <= nearest &&
-                    distance(at->first, fault.seeds[k].position) <= own_reach_at.at(at->first)) {
+                    distance(at->first, barrier.seeds[k].position) <= own_reach_at.at(at->first)) {
                     nearest = distance(at->first, middle);
                     base = at->first;
                     meets = true;
@@ -101,7 +101,7 @@ std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>
             }
             std::vector<std::uint32_t>& seeds = nodes[entry->second].seeds;
             seeds.insert(seeds.end(), {plus->second, minus->second});
-            nodes[entry->second].faults.push_back(static_cast<std::int32_t>(f));
+            nodes[entry->second].barriers.push_back(static_cast<std::int32_t>(f));
         }
     }
     return nodes;
@@ -127,9 +127,9 @@ class VertexFinder {
             }
         }
         double spacing = 0;
-        for (std::size_t f = 0; f < model.faults.size(); ++f) {
-            spacing = std::max(spacing, model.faults[f].spacing);
-            for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {
+        for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+            spacing = std::max(spacing, model.barriers[f].spacing);
+            for (const Surface* part : {&model.barriers[f].sheet, &model.barriers[f].margin}) {
                 for (const Vec3& p : part->vertices) {
                     if (selected[f] != 0) {
                         faults_at_[p].insert(static_cast<std::int32_t>(f));
@@ -143,8 +143,8 @@ class VertexFinder {
     std::vector<FaultNode> run() const {
         std::vector<FaultNode> nodes;
         std::vector<FaultNode> others;
-        for (const auto& [p, faults] : faults_at_) {
-            FaultNode node{p, {}, {faults.begin(), faults.end()}, {}};
+        for (const auto& [p, barriers] : faults_at_) {
+            FaultNode node{p, {}, {barriers.begin(), barriers.end()}, {}};
             node.cells = cells_at_one_distance(p);
             if (!node.cells.empty() && unseen_facets(node).empty()) {
                 nodes.push_back(std::move(node));
@@ -245,8 +245,8 @@ bool FaultNode::retreat() {
 }
 
 std::vector<FaultNode> fault_nodes(const Model& model, const TetMesh& mesh, const std::vector<char>& selected) {
-    return model.fault_options.mode == FaultMode::exact ? VertexFinder(model, mesh, selected).run()
-                                                        : meeting_seeds(model, selected);
+    return model.barrier_options.mode == SeedMode::exact ? VertexFinder(model, mesh, selected).run()
+                                                         : meeting_seeds(model, selected);
 }
 
 }  // namespace terratet

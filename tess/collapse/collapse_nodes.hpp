@@ -21,9 +21,9 @@ struct FaultNode {
         aside    ///< all where they were; of a fault's vertex: there is no node
     };
     Vec3 base;
-    std::vector<std::uint32_t> seeds;  ///< vertices that are to meet: + and − in turn
-    std::vector<std::int32_t> faults;  ///< that it is on
-    std::vector<std::uint32_t> cells;  ///< of a fault's vertex: those that it is put into, ascending
+    std::vector<std::uint32_t> seeds;    ///< vertices that are to meet: + and − in turn
+    std::vector<std::int32_t> barriers;  ///< that it is on
+    std::vector<std::uint32_t> cells;    ///< of a fault's vertex: those that it is put into, ascending
     State state = State::joined;
 
     [[nodiscard]] bool is_vertex() const { return !cells.empty(); }

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
-#include "tess/base/box_clip.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/base/box_clip.hpp"
 #include "tess/base/tetrahedron.hpp"
 
 namespace terratet {
@@ -71,7 +71,7 @@ class NodeSplitter {
           image_(image),
           nodes_(nodes),
           states_(states),
-          proximity_(model.faults),
+          proximity_(model.barriers),
           region_(states.region) {
         for (const Cell& cell : image.cells()) {
             cells_.push_back({cell.corners[0].node, cell.corners[1].node, cell.corners[2].node, cell.corners[3].node});
@@ -85,8 +85,8 @@ class NodeSplitter {
         cut_ = std::vector<std::array<bool, 4>>(cells_.size());
         std::vector<char> touched(image_.node_count(), 0);
         std::vector<char> continued(image_.node_count(), 0);
-        for_each_divider([&](std::uint32_t c, std::size_t k, std::int32_t fault) {
-            if (lies_on(fault, c, k)) {
+        for_each_divider([&](std::uint32_t c, std::size_t k, std::int32_t barrier) {
+            if (lies_on(barrier, c, k)) {
                 cut(c, k, touched);
                 split_area_ += area(inside_extent(c, k));
             } else if (!inside_extent(c, k).empty() || !in_extent(c) ||
@@ -115,7 +115,7 @@ class NodeSplitter {
     [[nodiscard]] const std::vector<std::int32_t>& regions() const { return region_; }
     [[nodiscard]] std::size_t split_places() const { return split_places_; }
     [[nodiscard]] double split_area() const { return split_area_; }
-    [[nodiscard]] std::vector<Vec3> off_faults() const { return {off_faults_.begin(), off_faults_.end()}; }
+    [[nodiscard]] std::vector<Vec3> off_barriers_of() const { return {off_faults_.begin(), off_faults_.end()}; }
 
     /// Cells over parts, and their neighbours; none across faults.
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 4>>& cells() const { return cells_; }
@@ -141,21 +141,21 @@ class NodeSplitter {
         faults_at_.resize(image_.node_count());
         base_.resize(image_.node_count());
         std::vector<Box3> boxes;
-        for (const Fault& fault : model_.faults) {
-            boxes.push_back(bounding_box(fault.sheet.vertices).grown(on_surface * fault.spacing));
+        for (const Barrier& barrier : model_.barriers) {
+            boxes.push_back(bounding_box(barrier.sheet.vertices).grown(on_surface * barrier.spacing));
         }
         for (std::uint32_t n = 0; n < image_.node_count(); ++n) {
             const auto at = image_.fault_nodes_at(n);
             faults_at_[n] = image_.faults_on(n);
             base_[n] = at.size() == 1 ? nodes_[at[0]].base : image_.position(n);
             for (const std::uint32_t node : at) {
-                faults_at_[n].insert(faults_at_[n].end(), nodes_[node].faults.begin(), nodes_[node].faults.end());
+                faults_at_[n].insert(faults_at_[n].end(), nodes_[node].barriers.begin(), nodes_[node].barriers.end());
             }
             for (std::size_t f = 0; f < boxes.size() && !(at.empty() && faults_at_[n].empty()); ++f) {
-                const auto fault = static_cast<std::int32_t>(f);
+                const auto barrier = static_cast<std::int32_t>(f);
                 if (selected_[f] != 0 && boxes[f].contains(base_[n]) &&
-                    proximity_.distance_to_sheet(fault, base_[n]) <= on_surface * model_.faults[f].spacing) {
-                    faults_at_[n].push_back(fault);
+                    proximity_.distance_to_sheet(barrier, base_[n]) <= on_surface * model_.barriers[f].spacing) {
+                    faults_at_[n].push_back(barrier);
                 }
             }
             std::ranges::sort(faults_at_[n]);
@@ -165,12 +165,12 @@ class NodeSplitter {
 
     /// Of a fault: +1 when all its seeds among the cell's corners are on the + side; −1 when any is on the other: what
     /// is left of a gap lies on the − side. 0 without a seed.
-    [[nodiscard]] int side(std::uint32_t c, std::int32_t fault) const {
+    [[nodiscard]] int side(std::uint32_t c, std::int32_t barrier) const {
         int result = 0;
         for (const Corner& corner : image_.cells()[c].corners) {
             for (const std::uint32_t v : image_.vertices_behind(corner.origin)) {
                 const Vertex& vertex = model_.vertices[v];
-                if (vertex.role == Role::seed && vertex.owner == fault && vertex.side != 0) {
+                if (vertex.role == Role::seed && vertex.owner == barrier && vertex.side != 0) {
                     result = vertex.side < 0 ? -1 : result == 0 ? 1 : result;
                 }
             }
@@ -189,12 +189,12 @@ class NodeSplitter {
                 }
                 const auto& v = cells_[c];
                 const auto& o = facet_corners[k];
-                for (const std::int32_t fault : faults_at_[v[o[0]]]) {
-                    if (selected_[static_cast<std::size_t>(fault)] != 0 &&
-                        std::ranges::binary_search(faults_at_[v[o[1]]], fault) &&
-                        std::ranges::binary_search(faults_at_[v[o[2]]], fault) &&
-                        side(c, fault) * side(static_cast<std::uint32_t>(neighbours_[c][k]), fault) <= 0) {
-                        visit(c, k, fault);
+                for (const std::int32_t barrier : faults_at_[v[o[0]]]) {
+                    if (selected_[static_cast<std::size_t>(barrier)] != 0 &&
+                        std::ranges::binary_search(faults_at_[v[o[1]]], barrier) &&
+                        std::ranges::binary_search(faults_at_[v[o[2]]], barrier) &&
+                        side(c, barrier) * side(static_cast<std::uint32_t>(neighbours_[c][k]), barrier) <= 0) {
+                        visit(c, k, barrier);
                     }
                 }
             }
@@ -216,7 +216,7 @@ class NodeSplitter {
         return clipped({base_[v[o[0]]], base_[v[o[1]]], base_[v[o[2]]]}, model_.domain.extent);
     }
 
-    [[nodiscard]] bool lies_on(std::int32_t fault, std::uint32_t c, std::size_t k) const {
+    [[nodiscard]] bool lies_on(std::int32_t barrier, std::uint32_t c, std::size_t k) const {
         const std::vector<Vec3> inside = inside_extent(c, k);
         if (inside.empty()) {
             return false;
@@ -226,7 +226,7 @@ class NodeSplitter {
         for (const Vec3& p : inside) {
             longest = std::max({longest, distance(p, inside[0]), distance(p, inside[inside.size() / 2])});
         }
-        return proximity_.distance_to_sheet(fault, middle) <= on_sheet * longest;
+        return proximity_.distance_to_sheet(barrier, middle) <= on_sheet * longest;
     }
 
     [[nodiscard]] bool in_extent(std::size_t c) const { return states_.in_extent[c] != 0; }
@@ -260,7 +260,7 @@ class NodeSplitter {
     }
 
     [[nodiscard]] bool lacks_region(std::size_t c) const {
-        return region_[c] < 0 && states_.fault[c] < 0 && states_.beyond[c] == 0;
+        return region_[c] < 0 && states_.barrier[c] < 0 && states_.beyond[c] == 0;
     }
 
     void spread_from(std::vector<std::uint32_t>& open) {
@@ -412,7 +412,7 @@ class NodeSplitter {
     const CollapseImage& image_;
     std::span<const FaultNode> nodes_;
     const CellStates& states_;
-    FaultProximity proximity_;
+    BarrierQuery proximity_;
     std::vector<std::int32_t> region_;
     std::vector<std::array<std::uint32_t, 4>> cells_;  ///< over the image's nodes, then over parts
     std::vector<std::array<std::int32_t, 4>> neighbours_;
@@ -431,8 +431,8 @@ SplitImage split_nodes(const Model& model, const std::vector<char>& selected, co
                        std::span<const FaultNode> nodes, const CellStates& states) {
     NodeSplitter splitter(model, selected, image, nodes, states);
     splitter.run();
-    return {splitter.parts(),        splitter.regions(),    splitter.cells(),     splitter.neighbours(),
-            splitter.split_places(), splitter.split_area(), splitter.off_faults()};
+    return {splitter.parts(),        splitter.regions(),    splitter.cells(),          splitter.neighbours(),
+            splitter.split_places(), splitter.split_area(), splitter.off_barriers_of()};
 }
 
 }  // namespace terratet

@@ -15,7 +15,7 @@ namespace terratet {
 
 /// What is known of the image's cells before nodes are split: columns of the cell table to be.
 struct CellStates {
-    std::vector<std::int32_t> fault;      ///< whose gap it fills, of those that keep theirs
+    std::vector<std::int32_t> barrier;    ///< whose gap it fills, of those that keep theirs
     std::vector<std::uint8_t> beyond;     ///< the ground or the outline
     std::vector<std::uint8_t> in_extent;  ///< and not beyond
     std::vector<std::int32_t> region;     ///< as before
@@ -36,7 +36,7 @@ struct SplitImage {
     std::vector<std::array<std::int32_t, 4>> neighbours;  ///< none across faults
     std::size_t split_places = 0;                         ///< nodes with more than one part
     double split_area = 0;                                ///< of facets on faults, in the extent
-    std::vector<Vec3> off_faults;                         ///< nodes of split facets in the extent that are on no fault
+    std::vector<Vec3> off_barriers_of;                    ///< nodes of split facets in the extent that are on no fault
 };
 
 /// Facets on the surfaces of the selected faults, between cells of their two sides, part the cells round each node.

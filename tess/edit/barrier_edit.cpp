@@ -72,9 +72,10 @@ ValuedVertices exchange(delaunay::Core& core, VertexValues& values, const std::v
 
 /// The seeds that find a place, with ids above all others.
 ValuedVertices placed_seeds(const Tessellation& tessellation, const std::vector<std::uint64_t>& leaving,
-                            const Domain& domain, const Fault& fault, std::int32_t owner, const ValueSource& source) {
+                            const Domain& domain, const Barrier& barrier, std::int32_t owner,
+                            const ValueSource& source) {
     Box3 around;
-    for (const Seed& seed : fault.seeds) {
+    for (const Seed& seed : barrier.seeds) {
         around.extend(seed.position);
     }
     std::set<Vec3> taken;
@@ -85,7 +86,7 @@ ValuedVertices placed_seeds(const Tessellation& tessellation, const std::vector<
     }
     ValuedVertices result;
     std::vector<ValueQuery> queries;
-    for (const Seed& seed : fault.seeds) {
+    for (const Seed& seed : barrier.seeds) {
         if (domain.hull.contains(seed.position) && taken.insert(seed.position).second) {
             const std::uint64_t id = tessellation.next_id() + result.vertices.size();
             result.vertices.push_back({id, seed.position, Role::seed, owner, seed.side});
@@ -99,18 +100,18 @@ ValuedVertices placed_seeds(const Tessellation& tessellation, const std::vector<
 
 }  // namespace
 
-FaultChange insert_fault(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Fault& fault,
-                         std::int32_t number, const ValueSource& source) {
-    const FaultProximity zone({&fault, 1});
+BarrierChange insert_barrier(Tessellation& tessellation, VertexValues& values, const Domain& domain,
+                             const Barrier& barrier, std::int32_t number, const ValueSource& source) {
+    const BarrierQuery zone({&barrier, 1});
     std::vector<std::uint64_t> leaving;
     for (const Vertex& vertex : tessellation.vertices()) {
         if ((vertex.role == Role::sample || vertex.role == Role::inserted) &&
-            zone.protecting_fault(vertex.position) >= 0) {
+            zone.protecting_barrier(vertex.position) >= 0) {
             leaving.push_back(vertex.id);
         }
     }
-    const ValuedVertices seeds = placed_seeds(tessellation, leaving, domain, fault, number, source);
-    FaultChange change;
+    const ValuedVertices seeds = placed_seeds(tessellation, leaving, domain, barrier, number, source);
+    BarrierChange change;
     for (const Vertex& seed : seeds.vertices) {
         change.ids.push_back(seed.id);
     }
@@ -118,7 +119,7 @@ FaultChange insert_fault(Tessellation& tessellation, VertexValues& values, const
     return change;
 }
 
-void take_out_fault(Tessellation& tessellation, VertexValues& values, const FaultChange& change) {
+void take_out_barrier(Tessellation& tessellation, VertexValues& values, const BarrierChange& change) {
     exchange(delaunay::core(tessellation), values, change.ids, change.removed);
 }
 

@@ -8,8 +8,8 @@
 /// Guarantee F3: inserting a fault and taking it out again, with the change that the insertion returned, restores the
 /// same tessellation: vertices, ids, values and cells.
 
-#include "tess/domain.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/domain.hpp"
 #include "tess/refinement.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
@@ -23,7 +23,7 @@ struct ValuedVertices {
 };
 
 /// What an insertion changed: enough to undo it, and to store.
-struct FaultChange {
+struct BarrierChange {
     ValuedVertices removed;          ///< samples and inserted vertices that stood in the fault's protection zone
     std::vector<std::uint64_t> ids;  ///< of the fault's seeds, ascending
 };
@@ -33,11 +33,11 @@ struct FaultChange {
 /// where a vertex stands already are left out, as are those outside the hull box. The work is local but for
 /// renumbering: O(n). \pre values are in step with the tessellation; the fault was prepared for this domain and is not
 /// in yet.
-FaultChange insert_fault(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Fault& fault,
-                         std::int32_t number, const ValueSource& source);
+BarrierChange insert_barrier(Tessellation& tessellation, VertexValues& values, const Domain& domain,
+                             const Barrier& barrier, std::int32_t number, const ValueSource& source);
 
 /// Undoes an insertion (F3), whatever else was inserted or taken out meanwhile.
 /// \pre The change's seeds are there, and nothing else has taken the places of what it removed.
-void take_out_fault(Tessellation& tessellation, VertexValues& values, const FaultChange& change);
+void take_out_barrier(Tessellation& tessellation, VertexValues& values, const BarrierChange& change);
 
 }  // namespace terratet

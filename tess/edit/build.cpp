@@ -8,15 +8,15 @@
 #include <sstream>
 #include <unordered_set>
 
-#include "tess/base/box_clip.hpp"
-#include "tess/edit/build_defaults.hpp"
-#include "tess/cells/crossing_edges.hpp"
-#include "tess/model/density_edition.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier/prepare/prepare.hpp"
-#include "tess/model/block_finder.hpp"
-#include "tess/refine/refine.hpp"
+#include "tess/base/box_clip.hpp"
+#include "tess/cells/crossing_edges.hpp"
+#include "tess/edit/build_defaults.hpp"
 #include "tess/edit/vertex_demand.hpp"
+#include "tess/error.hpp"
+#include "tess/model/block_finder.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/refine/refine.hpp"
 
 namespace terratet {
 
@@ -62,7 +62,7 @@ void canonicalise(Site& site, BuildReport& report) {
 /// (tess/collapse.hpp).
 void require_paired_bounds(const Model& model) {
     for (const Surface& surface : model.surfaces) {
-        if (is_bound(surface.kind) && model.fault_options.mode != FaultMode::paired) {
+        if (is_bound(surface.kind) && model.barrier_options.mode != SeedMode::paired) {
             throw UsageError("--" + std::string(to_string(surface.kind)) + " needs --fault-mode paired");
         }
     }
@@ -89,7 +89,7 @@ double area_in_plan(const Domain& domain) {
 
 /// Throws InputError when a topography was refused, or does not cover the extent: its cells would end in a staircase.
 void require_ground(const Model& model, const BuildReport& report) {
-    for (const FaultAccount& account : report.faults) {
+    for (const BarrierAccount& account : report.barriers) {
         if (account.kind == SurfaceKind::topography && !account.used) {
             throw InputError(account.file + ": the topography '" + account.name + "' cannot be used: it " +
                              account.reason);
@@ -98,14 +98,14 @@ void require_ground(const Model& model, const BuildReport& report) {
     double covered = 0;
     bool any = false;
     const Outline outline(model.domain.outline);
-    for (const Fault& fault : model.faults) {
-        for (const Triangle& t : fault.sheet.triangles) {
-            const Vec3& a = fault.sheet.vertices[t[0]];
-            const Vec3& b = fault.sheet.vertices[t[1]];
-            const Vec3& c = fault.sheet.vertices[t[2]];
-            const bool counts = fault.sheet.kind == SurfaceKind::topography && outline.contains((a + b + c) / 3);
+    for (const Barrier& barrier : model.barriers) {
+        for (const Triangle& t : barrier.sheet.triangles) {
+            const Vec3& a = barrier.sheet.vertices[t[0]];
+            const Vec3& b = barrier.sheet.vertices[t[1]];
+            const Vec3& c = barrier.sheet.vertices[t[2]];
+            const bool counts = barrier.sheet.kind == SurfaceKind::topography && outline.contains((a + b + c) / 3);
             covered += counts ? 0.5 * cross(b - a, c - a).z : 0;
-            any = any || fault.sheet.kind == SurfaceKind::topography;
+            any = any || barrier.sheet.kind == SurfaceKind::topography;
         }
     }
     const double share = std::abs(covered) / area_in_plan(model.domain);
@@ -121,7 +121,7 @@ void require_ground(const Model& model, const BuildReport& report) {
 }
 
 /// Throws InputError when a wall of the domain is missing: the model would run out there.
-void require_walls(const Model& model, const std::vector<FaultAccount>& accounts) {
+void require_walls(const Model& model, const std::vector<BarrierAccount>& accounts) {
     double wanted = 0;
     for (const auto& ring : model.domain.outline) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -130,14 +130,14 @@ void require_walls(const Model& model, const std::vector<FaultAccount>& accounts
         }
     }
     double there = 0;
-    for (const Fault& fault : model.faults) {
-        there += fault.sheet.kind == SurfaceKind::domain ? statistics(fault.sheet).area : 0;
+    for (const Barrier& barrier : model.barriers) {
+        there += barrier.sheet.kind == SurfaceKind::domain ? statistics(barrier.sheet).area : 0;
     }
     if (std::abs(there - wanted) <= 0.01 * wanted) {
         return;
     }
     std::string why = "give a finer --fault-spacing, or smooth the polygon";
-    for (const FaultAccount& account : accounts) {
+    for (const BarrierAccount& account : accounts) {
         if (account.kind == SurfaceKind::domain && !account.used) {
             why = "a part of it " + account.reason;
         }
@@ -150,12 +150,12 @@ void require_walls(const Model& model, const std::vector<FaultAccount>& accounts
 }
 
 /// The walls of the domain are one surface in the report.
-void join_walls(const Surface& domain, std::vector<FaultAccount>& accounts) {
-    FaultAccount joined;
+void join_walls(const Surface& domain, std::vector<BarrierAccount>& accounts) {
+    BarrierAccount joined;
     joined.name = domain.name;
     joined.file = domain.file;
     joined.kind = SurfaceKind::domain;
-    for (const FaultAccount& wall : accounts) {
+    for (const BarrierAccount& wall : accounts) {
         if (wall.kind != SurfaceKind::domain) {
             continue;
         }
@@ -181,38 +181,38 @@ void join_walls(const Surface& domain, std::vector<FaultAccount>& accounts) {
     if (!joined.used && joined.reason.empty()) {
         joined.reason = "its boundary lies outside the extent, which it covers";
     }
-    std::erase_if(accounts, [](const FaultAccount& account) { return account.kind == SurfaceKind::domain; });
-    const auto at = std::ranges::upper_bound(accounts, joined.name, {}, &FaultAccount::name);
+    std::erase_if(accounts, [](const BarrierAccount& account) { return account.kind == SurfaceKind::domain; });
+    const auto at = std::ranges::upper_bound(accounts, joined.name, {}, &BarrierAccount::name);
     accounts.insert(at, std::move(joined));
 }
 
 void prepare_boundary(const BuildOptions& options, Model& model, BuildReport& report, const Progress& progress) {
-    model.fault_options = options.faults;
+    model.barrier_options = options.barriers;
     require_paired_bounds(model);
     if (options.separate_faults) {
-        model.fault_options.spacing = separating_spacing(model.surfaces, model.domain.extent, model.frame,
-                                                         model.criteria.l_min, options.faults, progress);
+        model.barrier_options.spacing = separating_spacing(model.surfaces, model.domain.extent, model.frame,
+                                                           model.criteria.l_min, options.barriers, progress);
     }
-    const FaultOptions& faults = model.fault_options;
+    const BarrierOptions& barriers = model.barrier_options;
     const Surface* const domain = domain_surface(model);
     std::vector<Surface> surfaces = model.surfaces;
     if (domain != nullptr) {
         std::erase_if(surfaces, [](const Surface& surface) { return surface.kind == SurfaceKind::domain; });
         std::ranges::move(domain_walls(model.domain.outline, domain->name, domain->file, model.domain.extent,
-                                       hull_margin(faults, model.criteria.l_min)),
+                                       hull_margin(barriers, model.criteria.l_min)),
                           std::back_inserter(surfaces));
     }
-    FaultPreparation preparation = prepare_faults(surfaces, model.domain.extent, model.frame, model.criteria.l_min,
-                                                  faults, progress, model.samples.positions);
-    model.faults = std::move(preparation.faults);
-    report.faults = std::move(preparation.accounts);
+    BarrierPreparation preparation = prepare_barriers(surfaces, model.domain.extent, model.frame, model.criteria.l_min,
+                                                      barriers, progress, model.samples.positions);
+    model.barriers = std::move(preparation.barriers);
+    report.barriers = std::move(preparation.accounts);
     if (domain != nullptr) {
-        require_walls(model, report.faults);
-        join_walls(*domain, report.faults);
+        require_walls(model, report.barriers);
+        join_walls(*domain, report.barriers);
     }
     require_ground(model, report);
-    if (!model.faults.empty()) {
-        const Box3 hull = model.domain.extent.grown(hull_margin(faults, model.criteria.l_min));
+    if (!model.barriers.empty()) {
+        const Box3 hull = model.domain.extent.grown(hull_margin(barriers, model.criteria.l_min));
         model.domain.hull = {model.frame.snapped(hull.lo), model.frame.snapped(hull.hi)};
     }
 }
@@ -223,7 +223,7 @@ void name_regions(const BuildOptions& options, Model& model) {
     if (model.region_names.empty()) {
         return;
     }
-    const FaultBlocks blocks(model.domain, model.faults);
+    const BlockFinder blocks(model.domain, model.barriers);
     std::map<std::int32_t, std::string> name_of;
     for (const RegionName& named : model.region_names) {
         const std::int32_t block = blocks.at(named.point);
@@ -252,10 +252,10 @@ std::vector<std::uint32_t> inside_extent(const Model& model, BuildReport& report
 }
 
 DensityResult thin(const Model& model, const std::vector<std::uint32_t>& inside, DensityMode mode,
-                   const FaultProximity& proximity, const Poll& poll) {
+                   const BarrierQuery& proximity, const Poll& poll) {
     DensityResult result =
-        edit_density(selected(model.samples, inside), ResolutionField(model.criteria, model.domain, model.faults), mode,
-                     proximity, poll);
+        edit_density(selected(model.samples, inside), ResolutionField(model.criteria, model.domain, model.barriers),
+                     mode, proximity, poll);
     for (auto* indices : {&result.kept, &result.near_faults}) {
         for (std::uint32_t& i : *indices) {
             i = inside[i];
@@ -291,8 +291,8 @@ class InitialVertices {
         }
     }
     void add_seeds() {
-        for (std::size_t f = 0; f < model_.faults.size(); ++f) {
-            for (const Seed& seed : model_.faults[f].seeds) {
+        for (std::size_t f = 0; f < model_.barriers.size(); ++f) {
+            for (const Seed& seed : model_.barriers[f].seeds) {
                 add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
             }
         }
@@ -377,7 +377,7 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         name_regions(options, model);
     }
     built->barriers = model_proximity(model);
-    const FaultProximity& proximity = *built->barriers;
+    const BarrierQuery& proximity = *built->barriers;
     InitialVertices initial(model);
     {
         const Stopwatch watch(report.seconds["density"]);
@@ -431,7 +431,7 @@ BuildOptions options_of(const Model& model) {
     options.criteria = model.criteria;
     options.region_names = model.region_names;
     options.density = model.density;
-    options.faults = model.fault_options;
+    options.barriers = model.barrier_options;
     options.estimator = model.estimator;
     return options;
 }

@@ -37,7 +37,7 @@ void draw_outline(const BuildOptions& options, Model& model, BuildReport& report
     if (domain == nullptr) {
         return;
     }
-    const double spacing = options.faults.spacing > 0 ? options.faults.spacing : model.criteria.l_min;
+    const double spacing = options.barriers.spacing > 0 ? options.barriers.spacing : model.criteria.l_min;
     OutlineReport drawn;
     model.domain.outline = outline_of(model.surfaces, spacing, drawn);
     std::ostringstream text;

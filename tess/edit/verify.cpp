@@ -7,13 +7,13 @@
 #include <map>
 #include <sstream>
 
+#include "tess/barrier/query/protection_radii.hpp"
+#include "tess/base/tetrahedron.hpp"
 #include "tess/cells.hpp"
 #include "tess/cells/crossing_edges.hpp"
-#include "tess/model/density_edition.hpp"
-#include "tess/barrier/query/protection_radii.hpp"
 #include "tess/mesh/quality.hpp"
+#include "tess/model/density_edition.hpp"
 #include "tess/refine/refine.hpp"
-#include "tess/base/tetrahedron.hpp"
 
 namespace terratet {
 
@@ -70,9 +70,9 @@ class Sweep {
 
 /// By brute force over all triangles.
 bool in_protection_zone(const Model& model, const std::vector<std::vector<double>>& radii, const Vec3& p) {
-    for (std::size_t f = 0; f < model.faults.size(); ++f) {
+    for (std::size_t f = 0; f < model.barriers.size(); ++f) {
         std::size_t next = 0;
-        for (const Surface* part : {&model.faults[f].sheet, &model.faults[f].margin}) {
+        for (const Surface* part : {&model.barriers[f].sheet, &model.barriers[f].margin}) {
             for (const Triangle& t : part->triangles) {
                 const auto& v = part->vertices;
                 const Vec3 q = closest_point_on_triangle(p, v[t[0]], v[t[1]], v[t[2]]);
@@ -142,8 +142,8 @@ class Verifier {
         const Sweep kept(kept_);
         std::size_t dropped = 0;
         std::vector<std::vector<double>> radii;
-        for (std::size_t f = 0; f < model_.faults.size(); ++f) {
-            radii.push_back(protection_radii(model_.faults, f));
+        for (std::size_t f = 0; f < model_.barriers.size(); ++f) {
+            radii.push_back(protection_radii(model_.barriers, f));
         }
         for (const Vec3& p : model_.samples.positions) {
             if (!model_.domain.extent.contains(p) || kept.contains(p)) {
@@ -216,11 +216,11 @@ class Verifier {
         Offenders offenders;
         for (const CrossingEdge& edge : fault_crossing_edges(model_, mesh_, proximity_)) {
             offenders.add("edge " + show(model_, point(edge.a)) + " to " + show(model_, point(edge.b)) + " crosses '" +
-                          model_.faults[static_cast<std::size_t>(edge.fault)].name + "'");
+                          model_.barriers[static_cast<std::size_t>(edge.barrier)].name + "'");
         }
         return offenders.verdict(
             "F1", "in the extent no edge crosses a fault but between seeds of it or of faults that meet it",
-            std::to_string(model_.faults.size()) + " faults");
+            std::to_string(model_.barriers.size()) + " faults");
     }
 
     Verdict r1() {
@@ -267,7 +267,7 @@ class Verifier {
         Offenders offenders;
         std::size_t excused = 0;
         for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-            if (table_.fault[c] >= 0) {
+            if (table_.barrier[c] >= 0) {
                 continue;
             }
             const bool good = meets_criteria(c);
@@ -321,9 +321,9 @@ class Verifier {
             const Circumsphere sphere = circumsphere(corners(c));
             const CellQuality q = cell_quality(corners(c));
             const double l_max = resolution_.l_max(corners(c));
-            if (l_max < 4 * resolution_.l_min(sphere.center) || table_.fault[c] >= 0 ||
+            if (l_max < 4 * resolution_.l_min(sphere.center) || table_.barrier[c] >= 0 ||
                 table_.reason[c] == Reason::smooth || !model_.domain.extent.contains(sphere.center) ||
-                proximity_.protecting_fault(sphere.center) >= 0) {
+                proximity_.protecting_barrier(sphere.center) >= 0) {
                 continue;
             }
             ++promised;
@@ -407,10 +407,10 @@ class Verifier {
     }
 
     const Model& model_;
-    FaultProximity proximity_;
+    BarrierQuery proximity_;
     const ValueSourceFactory& factory_;
     ValueSource source_;
-    ResolutionField resolution_{model_.criteria, model_.domain, model_.faults};
+    ResolutionField resolution_{model_.criteria, model_.domain, model_.barriers};
     Tessellation tessellation_;
     TetMesh mesh_;
     CellTable table_;

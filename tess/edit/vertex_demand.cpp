@@ -50,8 +50,8 @@ double demand_of_grid(const Model& model) {
     return x * y + y * z + z * x;  // half of them
 }
 
-double demand_of_seeds(const Model& model, const FaultOptions& faults) {
-    const double spacing = faults.spacing > 0 ? faults.spacing : model.criteria.l_min;
+double demand_of_seeds(const Model& model, const BarrierOptions& barriers) {
+    const double spacing = barriers.spacing > 0 ? barriers.spacing : model.criteria.l_min;
     double area = 0;
     for (const Surface& surface : model.surfaces) {
         if (surface.kind == SurfaceKind::domain) {
@@ -76,12 +76,12 @@ double VertexDemand::total() const {
     return std::max(edges, grid) + seeds;
 }
 
-VertexDemand vertex_demand(const Model& model, const FaultOptions& faults) {
-    return {demand_of_cells(model), demand_of_grid(model), demand_of_seeds(model, faults)};
+VertexDemand vertex_demand(const Model& model, const BarrierOptions& barriers) {
+    return {demand_of_cells(model), demand_of_grid(model), demand_of_seeds(model, barriers)};
 }
 
 void require_affordable(const Model& model, const BuildOptions& options) {
-    const VertexDemand demand = vertex_demand(model, options.faults);
+    const VertexDemand demand = vertex_demand(model, options.barriers);
     const auto limit = static_cast<double>(options.refine.max_vertices);
     if (demand.total() <= limit) {
         return;
@@ -93,7 +93,7 @@ void require_affordable(const Model& model, const BuildOptions& options) {
     text << size.x << " x " << size.y << " x " << size.z << ", more than --max-vertices " << options.refine.max_vertices
          << " (by default what fits into memory): ";
     if (demand.seeds > limit / 2) {
-        const double spacing = options.faults.spacing > 0 ? options.faults.spacing : model.criteria.l_min;
+        const double spacing = options.barriers.spacing > 0 ? options.barriers.spacing : model.criteria.l_min;
         text << "a --fault-spacing of " << rounded_up(spacing * std::sqrt(2 * demand.seeds / limit));
     } else if (model.criteria.v_max > 0 && demand.edges > filling(model.domain.hull.volume(), model.criteria.l_max)) {
         text << "a --vmax of " << rounded_up(2 * model.criteria.v_max * demand.edges / limit);

@@ -18,7 +18,7 @@ struct VertexDemand {
 };
 
 /// \pre extent and criteria are resolved. Criteria by which cells may be smooth ask for nothing by l_max.
-VertexDemand vertex_demand(const Model& model, const FaultOptions& faults);
+VertexDemand vertex_demand(const Model& model, const BarrierOptions& barriers);
 
 /// Throws UsageError when that is more than options.refine.max_vertices, naming the option to change and a value.
 void require_affordable(const Model& model, const BuildOptions& options);

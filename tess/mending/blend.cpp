@@ -12,8 +12,8 @@ constexpr std::size_t max_steps = 200;
 
 }  // namespace
 
-bool is_hidden(const FaultProximity& faults, const Vec3& p, const Vec3& vertex) {
-    return !faults.empty() && faults.crosses_any(p, vertex + short_of_vertex * (p - vertex));
+bool is_hidden(const BarrierQuery& barriers, const Vec3& p, const Vec3& vertex) {
+    return !barriers.empty() && barriers.crosses_any(p, vertex + short_of_vertex * (p - vertex));
 }
 
 Blend OwnSideField::at(const Vec3& p, std::uint32_t cell) const {
@@ -58,7 +58,7 @@ Blend OwnSideField::seen_from(const Vec3& p, std::uint32_t cell, const std::arra
     std::size_t count = 0;
     double sum = 0;
     for (const std::size_t i : order) {
-        if (weights[i] > 0 && !is_hidden(faults_, p, mesh_.points[v[i]])) {
+        if (weights[i] > 0 && !is_hidden(barriers_, p, mesh_.points[v[i]])) {
             result.vertices[count] = v[i];
             result.weights[count] = weights[i];
             sum += weights[i];

@@ -27,14 +27,14 @@ constexpr std::size_t ask_every = 64;
 /// Sweeps over the bad cells of a mesh; the later ones have few.
 class Mender {
   public:
-    Mender(CutStars& stars, const Progress& progress) : stars_(stars), progress_(progress) {}
+    Mender(MendableStars& stars, const Progress& progress) : stars_(stars), progress_(progress) {}
 
     /// Points nearer to each other than they should be become one. Returns how often.
     std::size_t shorten() {
         const double least = stars_.mesh().least_edge * stars_.mesh().least_edge;
         stars_.let_edges_count(false);
         const std::size_t changed = sweep(
-            least, [&](const CutMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
+            least, [&](const MendableMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
             [&](std::uint32_t c) { return best_shortening(stars_, c, may_have); });
         stars_.let_edges_count(true);
         return changed;
@@ -42,7 +42,7 @@ class Mender {
 
     std::size_t improve() {
         return sweep(
-            enough, [&](const CutMesh::Cell& cell) { return stars_.goodness(cell); },
+            enough, [&](const MendableMesh::Cell& cell) { return stars_.goodness(cell); },
             [&](std::uint32_t c) { return best_change(stars_, c); });
     }
 
@@ -52,8 +52,8 @@ class Mender {
     std::size_t sweep(double least, const Measure& measure, const Find& find) {
         std::vector<Ranked> bad;
         for (std::uint32_t c = 0; c < stars_.mesh().cells.size(); ++c) {
-            const CutMesh::Cell& cell = stars_.cell(c);
-            if (cell.touched && !CutStars::gone(cell)) {
+            const MendableMesh::Cell& cell = stars_.cell(c);
+            if (cell.touched && !MendableStars::gone(cell)) {
                 if (const double by = measure(cell); by < least) {
                     bad.push_back({by, c});
                 }
@@ -66,11 +66,11 @@ class Mender {
                 const double done = static_cast<double>(i) / static_cast<double>(bad.size());
                 report_progress(progress_, "mend cells", 1 - std::ldexp(1 - 0.5 * done, -sweeps_));
             }
-            const CutMesh::Cell& cell = stars_.cell(bad[i].cell);
-            if (CutStars::gone(cell) || measure(cell) >= least) {
+            const MendableMesh::Cell& cell = stars_.cell(bad[i].cell);
+            if (MendableStars::gone(cell) || measure(cell) >= least) {
                 continue;
             }
-            if (const std::optional<CutChange> change = find(bad[i].cell)) {
+            if (const std::optional<MendingStep> change = find(bad[i].cell)) {
                 make(stars_, *change);
                 ++changed;
             }
@@ -79,16 +79,16 @@ class Mender {
         return changed;
     }
 
-    CutStars& stars_;
+    MendableStars& stars_;
     const Progress& progress_;
     int sweeps_ = 0;
 };
 
 }  // namespace
 
-void mend_cuts(CutMesh& mesh, const Progress& progress) {
-    CutStars stars(mesh);
-    for (CutMesh::Cell& cell : mesh.cells) {
+void mend_cells(MendableMesh& mesh, const Progress& progress) {
+    MendableStars stars(mesh);
+    for (MendableMesh::Cell& cell : mesh.cells) {
         cell.touched |= cell.judged && stars.goodness(cell) < must_have;
     }
     Mender mender(stars, progress);

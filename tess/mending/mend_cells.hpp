@@ -15,6 +15,6 @@ namespace terratet {
 
 /// Mends the touched cells. Points that no cell has any more are left behind; those that moved are marked. Of the same
 /// mesh always the same; O(n) and some 100 µs a bad cell. The stage is "mend cells".
-void mend_cuts(CutMesh& mesh, const Progress& progress = {});
+void mend_cells(MendableMesh& mesh, const Progress& progress = {});
 
 }  // namespace terratet

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "tess/mesh/quality.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/mesh/quality.hpp"
 
 namespace terratet {
 namespace {
@@ -19,7 +19,7 @@ constexpr double least_flat = 1e-9;  ///< six volumes over the longest edge's cu
 
 }  // namespace
 
-CutStars::CutStars(CutMesh& mesh)
+MendableStars::MendableStars(MendableMesh& mesh)
     : mesh_(mesh), star_(mesh.points.size()), by_place_(mesh.points.size()), rank_(mesh.points.size()) {
     for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
         for (const std::uint32_t v : mesh.cells[c].corners) {
@@ -46,11 +46,11 @@ CutStars::CutStars(CutMesh& mesh)
     mesh.moved.assign(mesh.points.size(), 0);
 }
 
-bool CutStars::has(const CutMesh::Cell& cell, std::uint32_t v) {
+bool MendableStars::has(const MendableMesh::Cell& cell, std::uint32_t v) {
     return std::ranges::find(cell.corners, v) != cell.corners.end();
 }
 
-std::uint32_t CutStars::beyond(std::uint32_t c, std::size_t k) const {
+std::uint32_t MendableStars::beyond(std::uint32_t c, std::size_t k) const {
     const Corners& v = cell(c).corners;
     const auto& o = facet_corners[k];
     for (const std::uint32_t other : star_[v[o[0]]]) {
@@ -61,7 +61,7 @@ std::uint32_t CutStars::beyond(std::uint32_t c, std::size_t k) const {
     return none;
 }
 
-bool CutStars::is_kept(std::uint32_t c, std::size_t k) const {
+bool MendableStars::is_kept(std::uint32_t c, std::size_t k) const {
     const std::uint32_t other = beyond(c, k);
     if (other != none) {
         return cell(other).part != cell(c).part;
@@ -71,7 +71,7 @@ bool CutStars::is_kept(std::uint32_t c, std::size_t k) const {
     return (faces_[v[o[0]]] & faces_[v[o[1]]] & faces_[v[o[2]]]) == 0;
 }
 
-bool CutStars::on_kept(std::uint32_t v) {
+bool MendableStars::on_kept(std::uint32_t v) {
     if (on_kept_[v] < 0) {
         on_kept_[v] = std::ranges::any_of(star_[v], [&](std::uint32_t c) {
             for (std::size_t k = 0; k < 4; ++k) {
@@ -85,7 +85,7 @@ bool CutStars::on_kept(std::uint32_t v) {
     return on_kept_[v] != 0;
 }
 
-std::vector<std::uint32_t> CutStars::at_place_of(std::uint32_t v) {
+std::vector<std::uint32_t> MendableStars::at_place_of(std::uint32_t v) {
     if (!on_kept(v)) {
         return {v};
     }
@@ -102,16 +102,16 @@ std::vector<std::uint32_t> CutStars::at_place_of(std::uint32_t v) {
     return result;
 }
 
-std::array<Vec3, 4> CutStars::points_of(const CutMesh::Cell& cell) const {
+std::array<Vec3, 4> MendableStars::points_of(const MendableMesh::Cell& cell) const {
     const Corners& v = cell.corners;
     return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
 }
 
-double CutStars::goodness(const CutMesh::Cell& cell) const {
+double MendableStars::goodness(const MendableMesh::Cell& cell) const {
     return goodness(points_of(cell), cell.judged);
 }
 
-double CutStars::shortest_edge(const CutMesh::Cell& cell) const {
+double MendableStars::shortest_edge(const MendableMesh::Cell& cell) const {
     double shortest = std::numeric_limits<double>::infinity();
     for (const auto& [i, j] : cell_edges) {
         shortest = std::min(shortest, squared_distance(point(cell.corners[i]), point(cell.corners[j])));
@@ -119,7 +119,8 @@ double CutStars::shortest_edge(const CutMesh::Cell& cell) const {
     return shortest;
 }
 
-double CutStars::worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at, double floor) const {
+double MendableStars::worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at,
+                                 double floor) const {
     double worst = 1;
     for (const std::uint32_t c : cells) {
         std::array<Vec3, 4> points = points_of(cell(c));
@@ -132,7 +133,7 @@ double CutStars::worst_with(std::span<const std::uint32_t> cells, std::uint32_t 
     return worst;
 }
 
-double CutStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
+double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
     const double six_volumes = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
     double longest = 0;
     double shortest = std::numeric_limits<double>::infinity();
@@ -153,7 +154,7 @@ double CutStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
     return edges_count_ ? angle * std::min(1.0, shortest / (mesh_.least_edge * mesh_.least_edge)) : angle;
 }
 
-void CutStars::apply(std::span<const std::uint32_t> old, std::span<const CutMesh::Cell> fresh) {
+void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const MendableMesh::Cell> fresh) {
     for (const std::uint32_t c : old) {
         for (const std::uint32_t v : cell(c).corners) {
             std::erase(star_[v], c);
@@ -173,7 +174,7 @@ void CutStars::apply(std::span<const std::uint32_t> old, std::span<const CutMesh
     }
 }
 
-void CutStars::move(std::uint32_t v, const Vec3& to) {
+void MendableStars::move(std::uint32_t v, const Vec3& to) {
     mesh_.points[v] = to;
     mesh_.moved[v] = 1;
     for (const std::uint32_t c : star_[v]) {

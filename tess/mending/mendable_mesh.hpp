@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "tess/geometry.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/geometry.hpp"
 
 namespace terratet {
 
@@ -20,7 +20,7 @@ using Corners = std::array<std::uint32_t, 4>;
 
 /// What is to be mended. Points of different numbers may be at one place: the nodes on both sides of a fault without
 /// width, whose facets have no cell beyond.
-struct CutMesh {
+struct MendableMesh {
     struct Cell {
         Corners corners{};         ///< positively oriented; all alike: gone
         std::uint32_t parent = 0;  ///< carried along: a new cell has the least of those it replaces
@@ -42,20 +42,20 @@ struct CutMesh {
 };
 
 /// A mesh with the cells at each point, and what follows from them.
-class CutStars {
+class MendableStars {
   public:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     /// The mesh must outlive it, and is changed by apply() and move() alone.
-    explicit CutStars(CutMesh& mesh);
+    explicit MendableStars(MendableMesh& mesh);
 
-    [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
-    [[nodiscard]] const CutMesh::Cell& cell(std::uint32_t c) const { return mesh_.cells[c]; }
+    [[nodiscard]] const MendableMesh& mesh() const { return mesh_; }
+    [[nodiscard]] const MendableMesh::Cell& cell(std::uint32_t c) const { return mesh_.cells[c]; }
     [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.points[v]; }
     [[nodiscard]] const std::vector<std::uint32_t>& star(std::uint32_t v) const { return star_[v]; }
 
-    static bool has(const CutMesh::Cell& cell, std::uint32_t v);
-    [[nodiscard]] static bool gone(const CutMesh::Cell& cell) { return cell.corners[0] == cell.corners[1]; }
+    static bool has(const MendableMesh::Cell& cell, std::uint32_t v);
+    [[nodiscard]] static bool gone(const MendableMesh::Cell& cell) { return cell.corners[0] == cell.corners[1]; }
 
     /// The cell beyond facet k of c; none: there is none.
     [[nodiscard]] std::uint32_t beyond(std::uint32_t c, std::size_t k) const;
@@ -74,25 +74,25 @@ class CutStars {
     /// The square of the sine of the smallest dihedral angle (1 from a right angle on), less where an edge is too
     /// short, if edges count; 0 without volume but for rounding, −1 when turned inside out. Of a cell that is not
     /// judged: 1 with a volume.
-    [[nodiscard]] double goodness(const CutMesh::Cell& cell) const;
+    [[nodiscard]] double goodness(const MendableMesh::Cell& cell) const;
     void let_edges_count(bool count) { edges_count_ = count; }
 
     /// Of a cell, squared.
-    [[nodiscard]] double shortest_edge(const CutMesh::Cell& cell) const;
+    [[nodiscard]] double shortest_edge(const MendableMesh::Cell& cell) const;
 
     /// Of the worst of these cells if v were elsewhere; −1 when it is `floor` or less.
     [[nodiscard]] double worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at,
                                     double floor) const;
 
     /// The cells `old` are gone, `fresh` are there instead.
-    void apply(std::span<const std::uint32_t> old, std::span<const CutMesh::Cell> fresh);
+    void apply(std::span<const std::uint32_t> old, std::span<const MendableMesh::Cell> fresh);
     void move(std::uint32_t v, const Vec3& to);
 
   private:
     [[nodiscard]] double goodness(const std::array<Vec3, 4>& points, bool judged) const;
-    [[nodiscard]] std::array<Vec3, 4> points_of(const CutMesh::Cell& cell) const;
+    [[nodiscard]] std::array<Vec3, 4> points_of(const MendableMesh::Cell& cell) const;
 
-    CutMesh& mesh_;
+    MendableMesh& mesh_;
     bool edges_count_ = true;
     std::vector<std::vector<std::uint32_t>> star_;
     std::vector<std::uint8_t> faces_;

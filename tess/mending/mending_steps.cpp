@@ -11,7 +11,7 @@
 namespace terratet {
 namespace {
 
-using Cell = CutMesh::Cell;
+using Cell = MendableMesh::Cell;
 
 constexpr double better = 1.05;      ///< goodness after a change over that before
 constexpr std::size_t max_ring = 7;  ///< cells round an edge that is taken out
@@ -23,9 +23,9 @@ constexpr double last_step = 0.02;
 /// Looks for the best change at one cell.
 class Search {
   public:
-    Search(CutStars& stars, std::uint32_t cell) : stars_(stars), cell_(cell) {}
+    Search(MendableStars& stars, std::uint32_t cell) : stars_(stars), cell_(cell) {}
 
-    std::optional<CutChange> run() {
+    std::optional<MendingStep> run() {
         const Corners v = stars_.cell(cell_).corners;
         for (const auto& [i, j] : cell_edges) {
             contract(v[i], v[j]);
@@ -41,7 +41,7 @@ class Search {
         return std::move(best_);
     }
 
-    std::optional<CutChange> shorten(double enough) {
+    std::optional<MendingStep> shorten(double enough) {
         shortening_ = true;
         enough_ = enough;
         const Corners v = stars_.cell(cell_).corners;
@@ -66,7 +66,7 @@ class Search {
 
     /// Keeps the change if it is the best so far. Where all that is wanted is that points meet, no cell may get worse
     /// than the worst, or than `enough_`; else the worst must get better.
-    void offer(CutChange change) {
+    void offer(MendingStep change) {
         const double before = worst_of(change.old);
         double least = shortening_ ? std::nextafter(std::min(before, enough_), -2.0) : better * before;
         least = best_ ? std::max(least, best_->worst) : least;
@@ -83,12 +83,12 @@ class Search {
     }
 
     /// No facet of three cells: where cells are flat to rounding, places do not tell.
-    [[nodiscard]] bool fits(const CutChange& change) const {
+    [[nodiscard]] bool fits(const MendingStep& change) const {
         return std::ranges::all_of(change.fresh, [&](const Cell& cell) {
             return std::ranges::all_of(facet_corners, [&](const auto& o) {
                 const std::array facet{cell.corners[o[0]], cell.corners[o[1]], cell.corners[o[2]]};
                 const auto has_it = [&](const Cell& other) {
-                    return std::ranges::all_of(facet, [&](std::uint32_t v) { return CutStars::has(other, v); });
+                    return std::ranges::all_of(facet, [&](std::uint32_t v) { return MendableStars::has(other, v); });
                 };
                 const auto stay = std::ranges::count_if(stars_.star(facet[0]), [&](std::uint32_t c) {
                     return has_it(stars_.cell(c)) && std::ranges::find(change.old, c) == change.old.end();
@@ -106,7 +106,7 @@ class Search {
             std::set<std::uint32_t> met;
             for (const std::uint32_t c : stars_.star(a)) {
                 std::ranges::copy_if(at, std::inserter(met, met.end()),
-                                     [&](std::uint32_t v) { return CutStars::has(stars_.cell(c), v); });
+                                     [&](std::uint32_t v) { return MendableStars::has(stars_.cell(c), v); });
             }
             if (met.size() != 1) {
                 return {};
@@ -151,9 +151,10 @@ class Search {
     }
 
     void contract(std::uint32_t a, std::uint32_t b) {
-        const CutMesh::Hold hold = stars_.mesh().hold[a];
+        const MendableMesh::Hold hold = stars_.mesh().hold[a];
         const bool onto_face = stars_.faces(a) == 0 && stars_.faces(b) != 0;
-        if (hold == CutMesh::Hold::fixed || (hold == CutMesh::Hold::surface && !(onto_face && stars_.on_kept(a))) ||
+        if (hold == MendableMesh::Hold::fixed ||
+            (hold == MendableMesh::Hold::surface && !(onto_face && stars_.on_kept(a))) ||
             (stars_.faces(a) & ~stars_.faces(b)) != 0) {
             return;
         }
@@ -167,11 +168,11 @@ class Search {
                 return;
             }
         }
-        CutChange change;
+        MendingStep change;
         for (std::size_t i = 0; i < from.size(); ++i) {
             for (const std::uint32_t c : stars_.star(from[i])) {
                 change.old.push_back(c);
-                if (!CutStars::has(stars_.cell(c), to[i])) {
+                if (!MendableStars::has(stars_.cell(c), to[i])) {
                     change.fresh.push_back(stars_.cell(c));
                     std::ranges::replace(change.fresh.back().corners, from[i], to[i]);
                 }
@@ -239,9 +240,9 @@ class Search {
     }
 
     void take_out_edge(std::uint32_t a, std::uint32_t b) {
-        CutChange change;
+        MendingStep change;
         std::ranges::copy_if(stars_.star(a), std::back_inserter(change.old),
-                             [&](std::uint32_t c) { return CutStars::has(stars_.cell(c), b); });
+                             [&](std::uint32_t c) { return MendableStars::has(stars_.cell(c), b); });
         if (change.old.size() > max_ring) {
             return;
         }
@@ -263,7 +264,7 @@ class Search {
     void take_out_facet(std::size_t k) {
         const std::uint32_t other = stars_.beyond(cell_, k);
         const Corners& v = stars_.cell(cell_).corners;
-        if (other == CutStars::none || stars_.cell(other).part != stars_.cell(cell_).part) {
+        if (other == MendableStars::none || stars_.cell(other).part != stars_.cell(cell_).part) {
             return;
         }
         const std::array<std::uint32_t, 3> facet{v[facet_corners[k][0]], v[facet_corners[k][1]],
@@ -271,7 +272,7 @@ class Search {
         const auto apex = std::ranges::find_if(stars_.cell(other).corners, [&](std::uint32_t corner) {
             return std::ranges::find(facet, corner) == facet.end();
         });
-        CutChange change;
+        MendingStep change;
         change.old = {cell_, other};
         for (std::size_t i = 0; i < 3; ++i) {
             change.fresh.push_back(like(change.old, {v[k], *apex, facet[i], facet[(i + 1) % 3]}));
@@ -281,11 +282,11 @@ class Search {
 
     /// Along the axes that its faces leave free, and towards the middle of its neighbours, in ever smaller steps.
     void move(std::uint32_t v) {
-        if (stars_.mesh().hold[v] != CutMesh::Hold::free || stars_.on_kept(v)) {
+        if (stars_.mesh().hold[v] != MendableMesh::Hold::free || stars_.on_kept(v)) {
             return;
         }
         const Vec3 start = stars_.point(v);
-        CutChange change;
+        MendingStep change;
         change.old = stars_.star(v);
         Vec3 sum;
         double edges = 0;
@@ -330,25 +331,25 @@ class Search {
         }
     }
 
-    CutStars& stars_;
+    MendableStars& stars_;
     std::uint32_t cell_;
     bool shortening_ = false;
     double enough_ = 1;
-    std::optional<CutChange> best_;
+    std::optional<MendingStep> best_;
 };
 
 }  // namespace
 
-std::optional<CutChange> best_change(CutStars& stars, std::uint32_t cell) {
+std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell) {
     return Search(stars, cell).run();
 }
 
-std::optional<CutChange> best_shortening(CutStars& stars, std::uint32_t cell, double enough) {
+std::optional<MendingStep> best_shortening(MendableStars& stars, std::uint32_t cell, double enough) {
     return Search(stars, cell).shorten(enough);
 }
 
-void make(CutStars& stars, const CutChange& change) {
-    if (change.mover == CutStars::none) {
+void make(MendableStars& stars, const MendingStep& change) {
+    if (change.mover == MendableStars::none) {
         stars.apply(change.old, change.fresh);
     } else {
         stars.move(change.mover, change.to);

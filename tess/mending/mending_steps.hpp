@@ -11,22 +11,22 @@
 namespace terratet {
 
 /// Cells that go and those that come in their place; or one point that moves.
-struct CutChange {
+struct MendingStep {
     std::vector<std::uint32_t> old;
-    std::vector<CutMesh::Cell> fresh;
-    std::uint32_t mover = CutStars::none;
+    std::vector<MendableMesh::Cell> fresh;
+    std::uint32_t mover = MendableStars::none;
     Vec3 to;
     double worst = 0;  ///< goodness of the worst cell after it
 };
 
 /// Of all that touch the cell the one that leaves the best worst cell; nothing where none makes the worst cell
 /// concerned better.
-std::optional<CutChange> best_change(CutStars& stars, std::uint32_t cell);
+std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell);
 
 /// The best way for one of the cell's short edges to vanish; nothing where each leaves a cell worse than the worst
 /// concerned and than `enough`.
-std::optional<CutChange> best_shortening(CutStars& stars, std::uint32_t cell, double enough);
+std::optional<MendingStep> best_shortening(MendableStars& stars, std::uint32_t cell, double enough);
 
-void make(CutStars& stars, const CutChange& change);
+void make(MendableStars& stars, const MendingStep& change);
 
 }  // namespace terratet

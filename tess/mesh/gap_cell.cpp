@@ -4,7 +4,7 @@
 
 namespace terratet {
 
-std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices) {
+std::int32_t gap_barrier(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices) {
     const std::int32_t owner = vertices[cell[0]].owner;
     bool plus = false;
     bool minus = false;

@@ -12,6 +12,6 @@ namespace terratet {
 
 /// Does the cell join both sides of one fault and nothing else? Returns the fault, or −1. At junctions other cells
 /// between seeds reach across a fault, too: the table counts them as gap cells of that one.
-std::int32_t gap_fault(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices);
+std::int32_t gap_barrier(const std::array<std::uint32_t, 4>& cell, std::span<const Vertex> vertices);
 
 }  // namespace terratet

@@ -63,7 +63,7 @@ std::optional<CellPosition> MeshWalk::locate(const Vec3& p) {
 
 void keep_to_own_side(CellPosition& position, const Vec3& p, const TetMesh& mesh, std::span<const Vertex> vertices) {
     const auto& cell = mesh.cells[position.cell];
-    if (gap_fault(cell, vertices) < 0) {
+    if (gap_barrier(cell, vertices) < 0) {
         return;
     }
     const std::uint32_t nearest =

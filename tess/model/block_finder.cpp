@@ -10,7 +10,7 @@ namespace terratet {
 namespace {
 
 /// What the faults alone divide the extent into: the corners of the hull box and the seeds.
-std::vector<Vertex> corners_and_seeds(const Domain& domain, std::span<const Fault> faults) {
+std::vector<Vertex> corners_and_seeds(const Domain& domain, std::span<const Barrier> barriers) {
     std::vector<Vertex> vertices;
     const auto add = [&](const Vec3& position, Role role, std::int32_t owner, std::int8_t side) {
         vertices.push_back({vertices.size(), position, role, owner, side});
@@ -21,8 +21,8 @@ std::vector<Vertex> corners_and_seeds(const Domain& domain, std::span<const Faul
         };
         add({pick(0), pick(1), pick(2)}, Role::domain, -1, 0);
     }
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        for (const Seed& seed : faults[f].seeds) {
+    for (std::size_t f = 0; f < barriers.size(); ++f) {
+        for (const Seed& seed : barriers[f].seeds) {
             if (domain.hull.contains(seed.position)) {
                 add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
             }
@@ -33,15 +33,15 @@ std::vector<Vertex> corners_and_seeds(const Domain& domain, std::span<const Faul
 
 }  // namespace
 
-FaultBlocks::FaultBlocks(const Domain& domain, std::span<const Fault> faults) {
-    const std::vector<Vertex> vertices = corners_and_seeds(domain, faults);
+BlockFinder::BlockFinder(const Domain& domain, std::span<const Barrier> barriers) {
+    const std::vector<Vertex> vertices = corners_and_seeds(domain, barriers);
     Tessellation tessellation;
     tessellation.insert(vertices);
     mesh_ = tessellation.mesh();
-    block_ = regions(mesh_, vertices, FaultProximity(faults), domain).region;
+    block_ = regions(mesh_, vertices, BarrierQuery(barriers), domain).region;
 }
 
-std::int32_t FaultBlocks::at(const Vec3& place) const {
+std::int32_t BlockFinder::at(const Vec3& place) const {
     const auto position = walk_.locate(place);
     return position ? block_[position->cell] : -1;
 }

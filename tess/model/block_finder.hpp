@@ -13,11 +13,11 @@
 
 namespace terratet {
 
-class FaultBlocks {
+class BlockFinder {
   public:
-    FaultBlocks(const Domain& domain, std::span<const Fault> faults);
-    FaultBlocks(const FaultBlocks&) = delete;
-    FaultBlocks& operator=(const FaultBlocks&) = delete;
+    BlockFinder(const Domain& domain, std::span<const Barrier> barriers);
+    BlockFinder(const BlockFinder&) = delete;
+    BlockFinder& operator=(const BlockFinder&) = delete;
 
     /// −1 in a gap and outside the extent. A short walk from the last place. Not for several threads at once.
     [[nodiscard]] std::int32_t at(const Vec3& place) const;

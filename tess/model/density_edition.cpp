@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "tess/mesh/bulk_insertion.hpp"
-#include "tess/mesh/delaunay.hpp"
 #include "tess/base/point_grid.hpp"
 #include "tess/base/poll.hpp"
+#include "tess/mesh/bulk_insertion.hpp"
+#include "tess/mesh/delaunay.hpp"
 
 namespace terratet {
 
@@ -127,13 +127,13 @@ class DynamicDeletion {
 }  // namespace
 
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
-                           const FaultProximity& faults, const Poll& poll) {
+                           const BarrierQuery& barriers, const Poll& poll) {
     PatientPoll go_on(poll);
     DensityResult result;
     std::vector<std::uint32_t> candidates;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
         go_on();
-        (faults.protecting_fault(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
+        (barriers.protecting_barrier(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
     }
     PointGrid kept(resolution.largest_l_min());
     if (mode == DensityMode::paper) {
@@ -149,11 +149,11 @@ DensityResult edit_density(const Samples& samples, const ResolutionField& resolu
     return result;
 }
 
-DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults) {
+DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const BarrierQuery& barriers) {
     Criteria criteria;
     criteria.l_min = l_min;
     const Domain nowhere;  // only overrides ask for it
-    return edit_density(samples, ResolutionField(criteria, nowhere, {}), mode, faults);
+    return edit_density(samples, ResolutionField(criteria, nowhere, {}), mode, barriers);
 }
 
 }  // namespace terratet

@@ -4,10 +4,10 @@
 /// \file
 /// Density edition itself (density.hpp: the choices and the guarantees).
 
-#include "tess/density.hpp"
 #include "tess/barrier_query.hpp"
-#include "tess/progress.hpp"
+#include "tess/density.hpp"
 #include "tess/model/resolution.hpp"
+#include "tess/progress.hpp"
 #include "tess/samples.hpp"
 
 namespace terratet {
@@ -15,9 +15,9 @@ namespace terratet {
 /// D1 with different l_min at two samples: the smaller one. D2: that of the dropped sample.
 /// \pre samples are merged (no coincident positions) and in canonical order. O(n) for canonical, O(n log n) for paper.
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
-                           const FaultProximity& faults, const Poll& poll = {});
+                           const BarrierQuery& barriers, const Poll& poll = {});
 
 /// The same with one l_min everywhere.
-DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const FaultProximity& faults);
+DensityResult edit_density(const Samples& samples, double l_min, DensityMode mode, const BarrierQuery& barriers);
 
 }  // namespace terratet

@@ -12,8 +12,8 @@ Tessellation tessellate(const Model& model) {
     return tessellation;
 }
 
-FaultProximity model_proximity(const Model& model) {
-    return FaultProximity(model.faults, estimation_barriers(model, model.domain, model.faults));
+BarrierQuery model_proximity(const Model& model) {
+    return BarrierQuery(model.barriers, estimation_barriers(model, model.domain, model.barriers));
 }
 
 }  // namespace terratet

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <set>
 
-#include "tess/base/box_clip.hpp"
-#include "tess/mesh/gap_cell.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
-#include "tess/mesh/quality.hpp"
+#include "tess/base/box_clip.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/mesh/gap_cell.hpp"
+#include "tess/mesh/quality.hpp"
 
 namespace terratet {
 namespace {
@@ -24,31 +24,31 @@ bool overlaps(const Box3& box, const std::array<Vec3, 3>& triangle) {
     return squared_length(area) > 0;
 }
 
-/// Fault blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells
+/// Barrier blocks: connected components of the extent without the gap cells, numbered by their smallest cell. Two cells
 /// are connected when they share a facet that the extent has a part of: outside it the way round a fault's end is open.
 /// They also are by gap cells that no sheet runs through, those beyond rims: a hole in a fault is open though its
 /// margin fills it.
 class RegionLabels {
   public:
-    RegionLabels(const TetMesh& mesh, std::span<const Vertex> vertices, const FaultProximity& faults,
+    RegionLabels(const TetMesh& mesh, std::span<const Vertex> vertices, const BarrierQuery& barriers,
                  const Domain& domain, CellRegions& table)
         : mesh_(mesh),
           vertices_(vertices),
-          faults_(faults),
+          barriers_(barriers),
           extent_(domain.extent),
           all_inside_(domain.hull == domain.extent),
           table_(table),
           way_(mesh.cells.size(), Way::unknown),
           passed_(mesh.cells.size(), 0) {
-        for (const Fault& fault : faults.faults()) {
-            boxes_.push_back(bounding_box(fault.sheet.vertices));
+        for (const Barrier& barrier : barriers.barriers()) {
+            boxes_.push_back(bounding_box(barrier.sheet.vertices));
         }
     }
 
     void run() {
         std::vector<std::int32_t> component(mesh_.cells.size(), -1);
         for (std::uint32_t first = 0; first < mesh_.cells.size(); ++first) {
-            if (component[first] >= 0 || table_.in_extent[first] == 0 || table_.fault[first] >= 0) {
+            if (component[first] >= 0 || table_.in_extent[first] == 0 || table_.barrier[first] >= 0) {
                 continue;
             }
             const std::vector<std::uint32_t> cells = flood(first, component);
@@ -58,7 +58,7 @@ class RegionLabels {
             }
             for (const std::uint32_t cell : cells) {
                 component[cell] = -1;
-                table_.fault[cell] = vertices_[mesh_.cells[cell][0]].owner;
+                table_.barrier[cell] = vertices_[mesh_.cells[cell][0]].owner;
             }
         }
         for (std::size_t c = 0; c < component.size(); ++c) {
@@ -76,7 +76,7 @@ class RegionLabels {
         component[first] = table_.region_count;
         ++floods_;
         for (std::size_t i = 0; i < reached.size(); ++i) {
-            if (table_.fault[reached[i]] < 0) {
+            if (table_.barrier[reached[i]] < 0) {
                 cells.push_back(reached[i]);
             }
             for (std::size_t k = 0; k < 4; ++k) {
@@ -85,7 +85,7 @@ class RegionLabels {
                 if (next < 0 || table_.beyond[neighbour] != 0) {
                     continue;
                 }
-                if (table_.fault[neighbour] >= 0) {
+                if (table_.barrier[neighbour] >= 0) {
                     if (passed_[neighbour] != floods_ && open(reached[i], k) && lets_pass(neighbour)) {
                         passed_[neighbour] = floods_;
                         reached.push_back(neighbour);
@@ -116,7 +116,7 @@ class RegionLabels {
 
     [[nodiscard]] bool meets_sheet(const Vec3& a, const Vec3& b) const {
         for (std::size_t f = 0; f < boxes_.size(); ++f) {
-            if (boxes_[f].meets_box_of(a, b) && faults_.crosses(static_cast<std::int32_t>(f), a, b)) {
+            if (boxes_[f].meets_box_of(a, b) && barriers_.crosses(static_cast<std::int32_t>(f), a, b)) {
                 return true;
             }
         }
@@ -133,7 +133,7 @@ class RegionLabels {
                 if (vertex.role != Role::seed) {
                     return false;
                 }
-                spacing = std::max(spacing, faults_.faults()[static_cast<std::size_t>(vertex.owner)].spacing);
+                spacing = std::max(spacing, barriers_.barriers()[static_cast<std::size_t>(vertex.owner)].spacing);
             }
             volume += cell_quality(cell_points(mesh_, mesh_.cells[cell])).volume;
         }
@@ -148,7 +148,7 @@ class RegionLabels {
 
     const TetMesh& mesh_;
     std::span<const Vertex> vertices_;
-    const FaultProximity& faults_;
+    const BarrierQuery& barriers_;
     const Box3& extent_;
     bool all_inside_;
     CellRegions& table_;
@@ -161,13 +161,13 @@ class RegionLabels {
 /// Where faults meet, or run close to each other, a cell between seeds of several of them, or of one side of a fold,
 /// may reach across one: that one, or −1.
 std::int32_t gap_at_junction(const std::array<std::uint32_t, 4>& cell, const TetMesh& mesh,
-                             std::span<const Vertex> vertices, const FaultProximity& faults) {
+                             std::span<const Vertex> vertices, const BarrierQuery& barriers) {
     if (!std::ranges::all_of(cell, [&](std::uint32_t v) { return vertices[v].role == Role::seed; })) {
         return -1;
     }
-    for (std::size_t f = 0; f < faults.faults().size(); ++f) {
+    for (std::size_t f = 0; f < barriers.barriers().size(); ++f) {
         for (const auto& [i, j] : cell_edges) {
-            if (faults.crosses(static_cast<std::int32_t>(f), mesh.points[cell[i]], mesh.points[cell[j]])) {
+            if (barriers.crosses(static_cast<std::int32_t>(f), mesh.points[cell[i]], mesh.points[cell[j]])) {
                 return static_cast<std::int32_t>(f);
             }
         }
@@ -177,26 +177,26 @@ std::int32_t gap_at_junction(const std::array<std::uint32_t, 4>& cell, const Tet
 
 }  // namespace
 
-CellRegions regions(const TetMesh& mesh, std::span<const Vertex> vertices, const FaultProximity& barriers,
+CellRegions regions(const TetMesh& mesh, std::span<const Vertex> vertices, const BarrierQuery& barriers,
                     const Domain& domain) {
     const std::size_t n = mesh.cells.size();
     CellRegions table;
     table.region.assign(n, -1);
-    table.fault.resize(n);
+    table.barrier.resize(n);
     table.in_extent.resize(n);
     table.beyond.resize(n);
     const ModelBounds bounds(domain, barriers);
     const auto bounds_model = [&](std::int32_t f) {
-        return f >= 0 && is_bound(barriers.faults()[static_cast<std::size_t>(f)].sheet.kind);
+        return f >= 0 && is_bound(barriers.barriers()[static_cast<std::size_t>(f)].sheet.kind);
     };
     for (std::size_t c = 0; c < n; ++c) {
-        table.fault[c] = gap_fault(mesh.cells[c], vertices);
-        if (table.fault[c] < 0) {
-            table.fault[c] = gap_at_junction(mesh.cells[c], mesh, vertices, barriers);
+        table.barrier[c] = gap_barrier(mesh.cells[c], vertices);
+        if (table.barrier[c] < 0) {
+            table.barrier[c] = gap_at_junction(mesh.cells[c], mesh, vertices, barriers);
         }
         const CellPoints points = cell_points(mesh, mesh.cells[c]);
         const Vec3 centroid = 0.25 * (points[0] + points[1] + points[2] + points[3]);
-        table.beyond[c] = bounds_model(table.fault[c]) || bounds.excludes(centroid) ? 1 : 0;
+        table.beyond[c] = bounds_model(table.barrier[c]) || bounds.excludes(centroid) ? 1 : 0;
         table.in_extent[c] = table.beyond[c] == 0 && domain.extent.contains(centroid);
     }
     RegionLabels(mesh, vertices, barriers, domain, table).run();
@@ -208,7 +208,7 @@ std::int32_t RegionFinder::at(const Vec3& p) {
     std::vector<std::uint32_t> open;
     std::set<std::uint32_t> seen;
     const auto reach = [&](std::uint32_t cell) {
-        if (regions_.fault[cell] < 0 && regions_.beyond[cell] == 0 && seen.insert(cell).second) {
+        if (regions_.barrier[cell] < 0 && regions_.beyond[cell] == 0 && seen.insert(cell).second) {
             open.push_back(cell);
         }
     };

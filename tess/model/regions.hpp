@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
+#include "tess/barrier_query.hpp"
 #include "tess/cell_regions.hpp"
 #include "tess/domain.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/mesh/mesh_walk.hpp"
 #include "tess/tet_mesh.hpp"
 
@@ -18,7 +18,7 @@ namespace terratet {
 /// Regions are the connected components of the extent without the gap cells. O(n), but where seeds of several barriers
 /// stand together.
 /// \pre `vertices` are in step with the mesh's points.
-CellRegions regions(const TetMesh& mesh, std::span<const Vertex> vertices, const FaultProximity& barriers,
+CellRegions regions(const TetMesh& mesh, std::span<const Vertex> vertices, const BarrierQuery& barriers,
                     const Domain& domain);
 
 /// The region of the cell that holds a point; of one without, as its centroid is beyond the extent, that of the nearest

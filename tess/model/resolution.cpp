@@ -21,8 +21,8 @@ bool touch(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-struct ResolutionField::Blocks : FaultBlocks {
-    using FaultBlocks::FaultBlocks;
+struct ResolutionField::Blocks : BlockFinder {
+    using BlockFinder::BlockFinder;
     std::vector<std::int32_t> of_override;  ///< block that each override names; −1: none
 
     /// The same whatever was asked before: between two cells, as the middle of an edge of the hull box may be, the one
@@ -34,13 +34,13 @@ struct ResolutionField::Blocks : FaultBlocks {
     }
 };
 
-ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults)
+ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Barrier> barriers)
     : criteria_(criteria), domain_(domain) {
     const auto names_block = [](const ResolutionOverride& part) { return part.where == Where::block; };
     if (std::ranges::none_of(criteria.overrides, names_block)) {
         return;
     }
-    blocks_ = std::make_unique<Blocks>(domain, faults);
+    blocks_ = std::make_unique<Blocks>(domain, barriers);
     for (const ResolutionOverride& part : criteria.overrides) {
         blocks_->of_override.push_back(names_block(part) ? blocks_->at(part.point) : -1);
         if (names_block(part) && blocks_->of_override.back() < 0) {

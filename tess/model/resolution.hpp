@@ -19,9 +19,9 @@ namespace terratet {
 
 class ResolutionField {
   public:
-    /// Fault blocks are FaultBlocks' (tess/model/block_finder.hpp). Throws UsageError when the point that names a block lies
-    /// outside the extent or in a fault's gap. `criteria` and `domain` must outlive the field.
-    ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Fault> faults);
+    /// Barrier blocks are BlockFinder' (tess/model/block_finder.hpp). Throws UsageError when the point that names a
+    /// block lies outside the extent or in a fault's gap. `criteria` and `domain` must outlive the field.
+    ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Barrier> barriers);
     ~ResolutionField();
     ResolutionField(ResolutionField&&) noexcept;
 

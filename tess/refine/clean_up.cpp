@@ -89,7 +89,7 @@ bool CleanUp::sweep(const std::vector<Patient>& waiting) {
 }
 
 int CleanUp::severity(const JudgedCell& cell) const {
-    if (gap_fault(cell.vertices, core_.vertices) >= 0 || rule_.smooth(cell)) {
+    if (gap_barrier(cell.vertices, core_.vertices) >= 0 || rule_.smooth(cell)) {
         return 0;
     }
     const double angle = std::acos(cosine_of(cell_sharpness(cell.points))) * 180 / std::numbers::pi;
@@ -101,7 +101,7 @@ void CleanUp::add(const JudgedCell& cell, State& state) const {
     if (const int how_bad = severity(cell); how_bad > 0) {
         state.severities.push_back(how_bad);
     }
-    if (gap_fault(cell.vertices, core_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
+    if (gap_barrier(cell.vertices, core_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
         return;
     }
     if (const Proposal proposal = rule_.propose(cell); proposal.reason == Reason::none) {

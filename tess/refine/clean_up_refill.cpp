@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "tess/refine/clean_up.hpp"
 #include "tess/mesh/gap_cell.hpp"
+#include "tess/refine/clean_up.hpp"
 
 namespace terratet {
 
@@ -143,7 +143,7 @@ std::optional<std::pair<JudgedCell, Cell>> CleanUp::worst_open(const std::set<Ce
     double most = 1;
     for (const Cell cell : cells) {
         const JudgedCell judged_cell = judged(cell);
-        if (gap_fault(judged_cell.vertices, core_.vertices) >= 0) {
+        if (gap_barrier(judged_cell.vertices, core_.vertices) >= 0) {
             continue;
         }
         const double violation = rule_.violation_in_force(judged_cell);

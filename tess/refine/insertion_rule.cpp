@@ -39,13 +39,13 @@ JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
 }
 
 InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame,
-                             const FaultProximity& faults, std::span<const Property> properties,
+                             const BarrierQuery& barriers, std::span<const Property> properties,
                              const VertexValues& values)
     : criteria_(criteria),
       domain_(domain),
       frame_(frame),
-      faults_(faults),
-      resolution_(criteria, domain, faults.faults()),
+      barriers_(barriers),
+      resolution_(criteria, domain, barriers.barriers()),
       faces_of_box_(domain.hull),
       properties_(properties),
       values_(values),
@@ -101,7 +101,7 @@ double InsertionRule::variation_violation(const JudgedCell& cell) const {
             // An edge across a fault is exempt: a jump there is what the fault is for.
             const double df =
                 scaled_difference(properties_[property], column[cell.vertices[i]], column[cell.vertices[j]]);
-            if (df > limit * worst && !faults_.seen_by(property).crosses_any(cell.points[i], cell.points[j])) {
+            if (df > limit * worst && !barriers_.seen_by(property).crosses_any(cell.points[i], cell.points[j])) {
                 worst = df / limit;
             }
         }
@@ -171,7 +171,7 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
     proposal.projected = split.has_value();
     proposal.point = split.value_or(sphere.center);
     proposal.point = frame_.snapped(proposal.point);
-    if (!faults_.empty() && faults_.protecting_fault(proposal.point) >= 0) {
+    if (!barriers_.empty() && barriers_.protecting_barrier(proposal.point) >= 0) {
         proposal.reason = Reason::near_fault;
     }
     return proposal;
@@ -191,13 +191,13 @@ std::optional<Vec3> InsertionRule::instead_of_split(const JudgedCell& cell) cons
     }
     place = frame_.snapped(place);
     const bool allowed = distance(place, centre) <= radius / 2 && radius >= resolution_.l_min(place) &&
-                         (faults_.empty() || faults_.protecting_fault(place) < 0);
+                         (barriers_.empty() || barriers_.protecting_barrier(place) < 0);
     return allowed ? std::optional(place) : std::nullopt;
 }
 
 bool InsertionRule::allows(const Vec3& point) const {
     return is_finite(point) && !near_face(point, resolution_.l_min(point) / 2) && !faces_of_box_.split_for(point) &&
-           (faults_.empty() || faults_.protecting_fault(point) < 0);
+           (barriers_.empty() || barriers_.protecting_barrier(point) < 0);
 }
 
 }  // namespace terratet

@@ -9,15 +9,15 @@
 #include <array>
 #include <span>
 
-#include "tess/refine/box_faces.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/criteria.hpp"
 #include "tess/domain.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/frame.hpp"
-#include "tess/property.hpp"
 #include "tess/mesh/quality.hpp"
-#include "tess/refinement.hpp"
 #include "tess/model/resolution.hpp"
+#include "tess/property.hpp"
+#include "tess/refine/box_faces.hpp"
+#include "tess/refinement.hpp"
 
 namespace terratet {
 
@@ -45,7 +45,7 @@ inline constexpr double candidate_radius = 0.3;
 class InsertionRule {
   public:
     /// All references must outlive the rule.
-    InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame, const FaultProximity& faults,
+    InsertionRule(const Criteria& criteria, const Domain& domain, const Frame& frame, const BarrierQuery& barriers,
                   std::span<const Property> properties, const VertexValues& values);
 
     /// Tells of a vertex: those on the hull box count for rule 3. All have to be told of before a place is asked for.
@@ -89,7 +89,7 @@ class InsertionRule {
     const Criteria& criteria_;
     const Domain& domain_;
     const Frame& frame_;
-    const FaultProximity& faults_;
+    const BarrierQuery& barriers_;
     ResolutionField resolution_;
     BoxFaces faces_of_box_;
     std::span<const Property> properties_;

@@ -21,7 +21,7 @@ LiveVertices::LiveVertices(delaunay::Core& core, VertexValues& values, const Val
       source_(source),
       values_at_once_(values_at_once),
       max_vertices_(max_vertices),
-      others_(kernel.vertices.size()),
+      others_(core.vertices.size()),
       l_min_(l_min),
       bound_(bound) {}
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "tess/refine/cell_queue.hpp"
-#include "tess/refine/clean_up.hpp"
 #include "tess/mesh/conflict_zone.hpp"
 #include "tess/mesh/delaunay.hpp"
 #include "tess/mesh/gap_cell.hpp"
+#include "tess/refine/cell_queue.hpp"
+#include "tess/refine/clean_up.hpp"
 #include "tess/refine/insertion_rule.hpp"
 #include "tess/refine/live_cell.hpp"
 #include "tess/refine/live_vertices.hpp"
@@ -32,10 +32,10 @@ constexpr int candidate_count_if_flat = 28;
 class Refiner {
   public:
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
-            const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+            const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
             const ValueSource& source, const RefineOptions& options)
         : core_(delaunay::core(tessellation)),
-          rule_(criteria, domain, frame, faults, properties, values),
+          rule_(criteria, domain, frame, barriers, properties, values),
           search_(core_.triangulation, domain.hull),
           criteria_(criteria),
           frame_(frame),
@@ -43,7 +43,7 @@ class Refiner {
           vertices_(core_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
                     rule_.resolution().packing_bound()),
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
-          has_faults_(!faults.empty()) {
+          has_barriers_(!barriers.empty()) {
         report_.bound = rule_.resolution().packing_bound();
         for (const Vertex& vertex : core_.vertices) {
             rule_.note_vertex(vertex.position);
@@ -92,7 +92,7 @@ class Refiner {
             if (judged_cell.sphere.squared_radius < smallest_squared_radius_) {
                 continue;  // rule 2 would refuse it: R is below l_min
             }
-            if (has_faults_ && gap_fault(judged_cell.vertices, core_.vertices) >= 0) {
+            if (has_barriers_ && gap_barrier(judged_cell.vertices, core_.vertices) >= 0) {
                 continue;
             }
             if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
@@ -296,7 +296,7 @@ class Refiner {
     const RefineOptions& options_;
     LiveVertices vertices_;
     double smallest_squared_radius_;
-    bool has_faults_;
+    bool has_barriers_;
     CellQueue queue_;
     RefineReport report_;
     std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
@@ -313,9 +313,9 @@ class Refiner {
 }  // namespace
 
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
-                    const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+                    const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
                     const ValueSource& source, const RefineOptions& options) {
-    return Refiner(tessellation, values, domain, frame, faults, criteria, properties, source, options).run();
+    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options).run();
 }
 
 }  // namespace terratet

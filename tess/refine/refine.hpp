@@ -6,9 +6,9 @@
 
 #include <span>
 
+#include "tess/barrier_query.hpp"
 #include "tess/criteria.hpp"
 #include "tess/domain.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/frame.hpp"
 #include "tess/property.hpp"
 #include "tess/refinement.hpp"
@@ -22,7 +22,7 @@ namespace terratet {
 /// \pre values are in step with the tessellation; criteria are valid; all vertices lie in domain.hull, whose faces are
 ///      gridded (face_grid).
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
-                    const FaultProximity& faults, const Criteria& criteria, std::span<const Property> properties,
+                    const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
                     const ValueSource& source, const RefineOptions& options = {});
 
 }  // namespace terratet

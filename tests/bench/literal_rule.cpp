@@ -22,8 +22,8 @@
 #include <deque>
 
 #include "refinement_sites.hpp"
-#include "tess/model/density_edition.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/model/density_edition.hpp"
 
 using namespace terratet;
 
@@ -119,9 +119,9 @@ void add(Delaunay& delaunay, const Vec3& p, bool fracture) {
 
 Delaunay initial(const bench::RefinementSite& twin, bool corners_of_box) {
     Delaunay delaunay;
-    const std::vector<Fault> no_faults;
+    const std::vector<Barrier> no_faults;
     Samples samples = selected(twin.site.samples, canonical_order(twin.site.samples));
-    for (const auto i : edit_density(samples, l_min, DensityMode::paper, FaultProximity(no_faults)).kept) {
+    for (const auto i : edit_density(samples, l_min, DensityMode::paper, BarrierQuery(no_faults)).kept) {
         add(delaunay, samples.positions[i], false);
     }
     const Surface& fracture = twin.site.surfaces.front();

@@ -25,8 +25,8 @@ Criteria volume_criteria(double volume, double aspect) {
 }
 
 OwnMesh refined(const PointsInBox& task, const Criteria& criteria, double face_length, const RefineOptions& options) {
-    const std::vector<Fault> no_faults;
-    const FaultProximity proximity(no_faults);
+    const std::vector<Barrier> no_faults;
+    const BarrierQuery proximity(no_faults);
     const Frame frame;
     const std::vector<Property> properties = {{"f", "", Scale::linear, Kind::continuous, {}}};
     const ValueSource constant = [](std::span<const ValueQuery> queries) {

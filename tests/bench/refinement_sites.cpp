@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/read_site.hpp"
-#include "tess/model/density_edition.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/model/density_edition.hpp"
 #include "tests/support.hpp"
 #include "tests/tess/worlds.hpp"
 
@@ -115,10 +115,10 @@ PointsInBox bare_points(const RefinementSite& site) {
     }
     samples = selected(samples, canonical_order(samples));
     merge_coincident(samples, site.site.properties);
-    const std::vector<Fault> no_faults;
+    const std::vector<Barrier> no_faults;
     const double l_min = 0.99 * site.options.criteria.l_min;  // surfaces' vertices stand l_min apart, but for rounding
     const Box3 inside = result.box.grown(-l_min);
-    for (const auto i : edit_density(samples, l_min, DensityMode::canonical, FaultProximity(no_faults)).kept) {
+    for (const auto i : edit_density(samples, l_min, DensityMode::canonical, BarrierQuery(no_faults)).kept) {
         if (inside.contains(samples.positions[i])) {
             result.points.push_back(samples.positions[i]);
         }

@@ -37,7 +37,7 @@ std::vector<RefinementSite> sites() {
 
 /// No property decides anything here: every value is 1.
 ValueSourceFactory constant() {
-    return [](const Model& model, const FaultProximity&) -> ValueSource {
+    return [](const Model& model, const BarrierQuery&) -> ValueSource {
         return [count = model.properties.size()](std::span<const ValueQuery> queries) {
             return ValueBatch{std::vector(count, std::vector<double>(queries.size(), 1)),
                               std::vector<double>(queries.size(), 0)};

@@ -90,7 +90,7 @@ std::string sound_model() {
     do {
         model = testing::random_model(seed++);
     } while (model.boreholes.size() < 2 || model.samples.size() < 6 || model.samples.size() > 16 ||
-             model.faults.empty() || model.vertices.size() < 12 || model.vertices.size() > 24 ||
+             model.barriers.empty() || model.vertices.size() < 12 || model.vertices.size() > 24 ||
              model.surfaces.empty() || model.properties.size() < 2 || model.properties.size() > 4 ||
              !model.samples.any_censored());
     const testing::TemporaryFolder folder;
@@ -311,7 +311,7 @@ void check_model(const Model& model) {
     }
     for (const Vertex& v : model.vertices) {
         const std::size_t owners = v.role == Role::sample ? model.samples.size()
-                                   : v.role == Role::seed ? model.faults.size()
+                                   : v.role == Role::seed ? model.barriers.size()
                                                           : 0;
         require(is_acceptable(v.position));
         require(owners == 0 ? v.owner == -1 : v.owner >= 0 && static_cast<std::size_t>(v.owner) < owners);
@@ -320,7 +320,7 @@ void check_model(const Model& model) {
     for (const Surface& surface : model.surfaces) {
         surfaces.push_back(&surface);
     }
-    for (const Fault& fault : model.faults) {
+    for (const Barrier& fault : model.barriers) {
         require(fault.spacing > 0 && fault.width >= 0 && fault.protection_radius >= 0);
         surfaces.insert(surfaces.end(), {&fault.sheet, &fault.margin});
     }

@@ -18,8 +18,8 @@
 
 namespace terratet::testing {
 
-inline const FaultProximity& no_faults() {
-    static const FaultProximity none{std::span<const Fault>()};
+inline const BarrierQuery& no_faults() {
+    static const BarrierQuery none{std::span<const Barrier>()};
     return none;
 }
 

@@ -13,9 +13,9 @@
 #include "interp/model_estimator.hpp"
 #include "interp/plan/model_source.hpp"
 #include "interp/voxels/resample.hpp"
-#include "tess/build.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/barrier/query/own_side.hpp"
+#include "tess/barrier_query.hpp"
+#include "tess/build.hpp"
 #include "tess/property.hpp"
 #include "tess/value_source.hpp"
 
@@ -75,7 +75,7 @@ Model built(const Sides& sides, BuildReport& report) {
     options.extent = sides.extent;
     options.criteria.l_min = 60;
     options.criteria.l_max = 240;
-    const auto source = [](const Model& model, const FaultProximity& faults) {
+    const auto source = [](const Model& model, const BarrierQuery& faults) {
         return make_model_source(model, faults, {});
     };
     return std::move(build(std::move(site), options, source, report)->model);
@@ -98,11 +98,11 @@ struct Wrong {
 void require_sides(const Sides& sides) {
     BuildReport report;
     const Model model = built(sides, report);
-    for (const FaultAccount& account : report.faults) {
+    for (const BarrierAccount& account : report.barriers) {
         INFO(account.name << ": " << account.reason);
         REQUIRE(account.used);
     }
-    const FaultProximity faults = model_proximity(model);
+    const BarrierQuery faults = model_proximity(model);
     Wrong at_vertices;
     std::vector<ValueQuery> queries;
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
@@ -125,7 +125,7 @@ void require_sides(const Sides& sides) {
     }
     const TetMesh mesh = tessellate(model).mesh();
     const CellTable cells = describe_cells(model, mesh);
-    const OwnSide own(mesh, cells.fault, faults, model.domain.extent);
+    const OwnSide own(mesh, cells.barrier, faults, model.domain.extent);
     LinearField field{&mesh, model.vertex_values.values[0]};
     field.sides = &own;
     const Lattice lattice = lattice_over(model.domain.extent, {17, 17, 17});
@@ -231,7 +231,7 @@ TEST_CASE("A fault that ends within the extent is seen past beyond it as well") 
     sides.value = [](const Vec3& p) { return p.x > 500 ? 1 : 0; };
     BuildReport report;
     const Model model = built(sides, report);
-    const FaultProximity faults = model_proximity(model);
+    const BarrierQuery faults = model_proximity(model);
     for (const double y : {-40.0, 500.0, 1040.0}) {
         CHECK_FALSE(faults.crosses_any({400, y, 320}, {600, y, 320}));  // above its upper rim, beyond the extent too
         CHECK(faults.crosses_any({400, y, 280}, {600, y, 280}));
@@ -254,14 +254,14 @@ TEST_CASE("A continuation stops at the fault that its own ends on, however obliq
         sides.value = [](const Vec3& p) { return p.x > 500 ? 1 : 0; };
         BuildReport report;
         const Model model = built(sides, report);
-        const EstimationBarriers barriers = estimation_barriers(model, model.domain, model.faults);
+        const EstimationBarriers barriers = estimation_barriers(model, model.domain, model.barriers);
         REQUIRE(barriers.soft.size() == 2);
         for (std::size_t f = 0; f < 2; ++f) {
-            INFO(model.faults[f].name);
+            INFO(model.barriers[f].name);
             REQUIRE(!barriers.soft[f].beyond.triangles.empty());
             for (const Vec3& p : barriers.soft[f].beyond.vertices) {
                 INFO(p.x << " " << p.y << " " << p.z);
-                REQUIRE((model.faults[f].name == "main" || p.x > 500 - 10));  // the junction is remeshed
+                REQUIRE((model.barriers[f].name == "main" || p.x > 500 - 10));  // the junction is remeshed
             }
         }
     }
@@ -273,7 +273,7 @@ TEST_CASE("A query exactly on a fault has the value of the side that is asked fo
     sides.value = [](const Vec3& p) { return p.x > 500 ? 1 : 0; };
     BuildReport report;
     Model model = built(sides, report);
-    const FaultProximity faults = model_proximity(model);
+    const BarrierQuery faults = model_proximity(model);
     const double plus = faults.side_of(0, {510, 500, 300}) > 0 ? 1 : 0;
     const std::vector<Vec3> on = {{500, 300, 200}, {500, 412.5, 333.3}, {500, -200, 900}, {500, 0, 0}};
     const auto values_of = [&](const Model& of, const std::string& spec, std::int32_t fault, std::int8_t side) {
@@ -343,14 +343,14 @@ TEST_CASE(
     BuildOptions options;
     options.criteria.l_min = 50;
     options.criteria.l_max = 200;
-    options.faults.spacing = 35;
+    options.barriers.spacing = 35;
     BuildReport report;
-    const auto factory = [](const Model& model, const FaultProximity& faults) {
+    const auto factory = [](const Model& model, const BarrierQuery& faults) {
         return make_model_source(model, faults, {});
     };
     const Model model = std::move(build(site, options, factory, report)->model);
-    REQUIRE(model.faults.size() == 1);
-    const FaultProximity faults = model_proximity(model);
+    REQUIRE(model.barriers.size() == 1);
+    const BarrierQuery faults = model_proximity(model);
     CHECK_FALSE(faults.crosses_any({500, 500, 200}, {500, 500, 500}));
     CHECK(faults.seen_by(1).crosses_any({500, 500, 200}, {500, 500, 500}));
     std::vector<ValueQuery> queries;
@@ -387,7 +387,7 @@ TEST_CASE(
     // Voxels, those in the gap between the horizon's seeds included.
     const TetMesh mesh = tessellate(model).mesh();
     const CellTable cells = describe_cells(model, mesh);
-    const OwnSide own(mesh, cells.fault, faults.seen_by(3), model.domain.extent);
+    const OwnSide own(mesh, cells.barrier, faults.seen_by(3), model.domain.extent);
     LinearField field{&mesh, model.vertex_values.values[3]};
     field.sides = &own;
     const Lattice lattice = lattice_over(model.domain.extent, {13, 13, 13});

@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "sites.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/error.hpp"
 #include "tess/value_source.hpp"
 
 using namespace terratet;
@@ -145,8 +145,8 @@ TEST_CASE("Inverse distance: a site alone on itself, no value beyond the radius,
 }
 
 TEST_CASE("E1: no estimator gives any weight to a site across a fault") {
-    const std::vector<Fault> faults = {fault_at_x(500, -10'000, 10'000)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault_at_x(500, -10'000, 10'000)};
+    const BarrierQuery proximity(faults);
     const auto sites = uniform_sites(600, 3);
     for (const std::string spec : {"nearest", "idw:max_points=20", "natural"}) {
         CAPTURE(spec);
@@ -156,7 +156,7 @@ TEST_CASE("E1: no estimator gives any weight to a site across a fault") {
             ValueQuery query{random.in({{-100, -100, -100}, {1100, 1100, 1100}})};
             if (i % 3 == 0) {  // where seeds stand, and far nearer
                 query.side = i % 2 ? 1 : -1;
-                query.fault = 0;
+                query.barrier = 0;
                 query.position.x = 500 + query.side * (i % 9 ? faults[0].width / 2 : 1e-9);
             }
             const auto w = weights_at(*estimator, query);
@@ -173,8 +173,8 @@ TEST_CASE("E1: no estimator gives any weight to a site across a fault") {
 }
 
 TEST_CASE("E1: a fault block without samples gets no value, from any estimator") {
-    const std::vector<Fault> faults = {fault_at_x(2000, -1e5, 1e5), fault_at_x(-1000, -1e5, 1e5)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault_at_x(2000, -1e5, 1e5), fault_at_x(-1000, -1e5, 1e5)};
+    const BarrierQuery proximity(faults);
     const auto sites = uniform_sites(200, 5);
     for (const std::string spec : {"nearest", "idw", "natural"}) {
         CAPTURE(spec);
@@ -188,8 +188,8 @@ TEST_CASE("E1: a fault block without samples gets no value, from any estimator")
 
 TEST_CASE("Where all natural neighbours are hidden the nearest visible site counts, and that is said") {
     // One site is beyond a small fault from the query; it is round the fault's rim that another can be seen.
-    const std::vector<Fault> faults = {fault_at_x(0, -5, 5), fault_at_x(-40, -60, 60)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault_at_x(0, -5, 5), fault_at_x(-40, -60, 60)};
+    const BarrierQuery proximity(faults);
     std::vector<Vec3> sites;
     for (double y = -4; y <= 4; ++y) {
         for (double z = -4; z <= 4; ++z) {

@@ -10,8 +10,8 @@
 #include "interp/estimator_plan.hpp"
 #include "interp/model_estimator.hpp"
 #include "sites.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/error.hpp"
 #include "tess/property.hpp"
 
 using namespace terratet;
@@ -61,8 +61,8 @@ TEST_CASE("The reach is three spacings of holes, known as such or not, or what a
 }
 
 TEST_CASE("The extrapolation is the distance to the nearest visible sample over twice the reach, by any estimator") {
-    const std::vector<Fault> faults = {fault_at_x(350, -5000, 5000)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault_at_x(350, -5000, 5000)};
+    const BarrierQuery proximity(faults);
     Model model;
     model.properties = {{"v", "", Scale::linear, Kind::continuous, {}}};
     model.samples.positions = grid_of_holes(4, 200);
@@ -94,8 +94,8 @@ TEST_CASE("The extrapolation is the distance to the nearest visible sample over 
 namespace {
 
 /// The part y ≤ 500 of the plane x = 500, with free rims all round.
-Fault ending_fault() {
-    Fault fault = fault_at_x(500, -1000, 2000);
+Barrier ending_fault() {
+    Barrier fault = fault_at_x(500, -1000, 2000);
     for (Vec3& p : fault.sheet.vertices) {
         p.y = std::min(p.y, 500.0);
     }
@@ -123,8 +123,8 @@ Model samples_before_and_far() {
 }  // namespace
 
 TEST_CASE("Behind a fault's end the extrapolation is by the shortest way round it") {
-    const std::vector<Fault> faults = {ending_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {ending_fault()};
+    const BarrierQuery proximity(faults);
     const Model model = samples_before_and_far();
     const auto places = places_in({{510, 250, 350}, {700, 490, 650}}, 60, 5);
     for (const std::string spec :
@@ -161,14 +161,14 @@ TEST_CASE("Behind a fault's end the extrapolation is by the shortest way round i
 
 TEST_CASE("Ways turn more than once: round the corner of two faults that meet") {
     // An L in plan, open to the north and east; the samples lie in the far arm's shadow.
-    std::vector<Fault> faults = {fault_at_x(500, -3000, 3000), fault_at_x(500, -3000, 3000)};
+    std::vector<Barrier> faults = {fault_at_x(500, -3000, 3000), fault_at_x(500, -3000, 3000)};
     for (Vec3& p : faults[0].sheet.vertices) {
         p.y = p.y < 0 ? 0 : 400;
     }
     for (Vec3& p : faults[1].sheet.vertices) {
         p = {p.y < 0 ? 500.0 : 800.0, 0, p.z};
     }
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     Model model = samples_before_and_far();
     for (Vec3& p : model.samples.positions) {
         p = p.y < 1000 ? Vec3{p.x, p.y - 700, p.z} : Vec3{p.x + 9000, p.y, p.z};

@@ -13,9 +13,9 @@
 #include "estimation.hpp"
 #include "interp/estimator/estimator.hpp"
 #include "interp/estimator_spec.hpp"
+#include "interp/model_estimator.hpp"
 #include "interp/plan/extrapolation.hpp"
 #include "interp/plan/make_estimator.hpp"
-#include "interp/model_estimator.hpp"
 #include "sites.hpp"
 #include "tess/barrier_query.hpp"
 #include "tess/property.hpp"
@@ -44,7 +44,7 @@ Model model_of(const std::vector<Vec3>& sites, const Field& field) {
     return model;
 }
 
-std::vector<double> values_at(const Model& model, const FaultProximity& faults, const std::string& spec,
+std::vector<double> values_at(const Model& model, const BarrierQuery& faults, const std::string& spec,
                               const std::vector<Vec3>& places) {
     return ModelEstimator(model, faults, parse_estimator(spec)).values(queries_at(places)).values[0];
 }
@@ -72,8 +72,8 @@ std::vector<Vec3> holes() {
 }
 
 /// A rectangle of random place and attitude.
-Fault random_fault(Random& random) {
-    Fault fault = fault_at_x(0, -random(150, 500), random(150, 500));
+Barrier random_fault(Random& random) {
+    Barrier fault = fault_at_x(0, -random(150, 500), random(150, 500));
     const Vec3 at = random.in({{200, 200, 200}, {800, 800, 800}});
     const Vec3 n = random.in({{-1, -1, -1}, {1, 1, 1}});
     const Vec3 u = cross(n, {0.3, 0.5, 0.8}) / length(cross(n, {0.3, 0.5, 0.8})), v = cross(n, u) / length(n);
@@ -84,7 +84,7 @@ Fault random_fault(Random& random) {
 }
 
 /// Of the sites, 20 a hole where there are holes, whether they see sites of six others.
-std::vector<bool> sites_that_see_other_holes(const std::vector<Vec3>& sites, const FaultProximity& faults) {
+std::vector<bool> sites_that_see_other_holes(const std::vector<Vec3>& sites, const BarrierQuery& faults) {
     std::vector<bool> out;
     for (std::size_t i = 0; i < sites.size(); ++i) {
         std::set<std::size_t> holes;
@@ -104,8 +104,8 @@ bool all_see_enough(const Weights& weights, const std::vector<bool>& sees_enough
 }
 
 /// The part y < 500 of the plane x = 500.
-Fault half_fault() {
-    Fault fault = fault_at_x(500, -5000, 5000);
+Barrier half_fault() {
+    Barrier fault = fault_at_x(500, -5000, 5000);
     for (Vec3& p : fault.sheet.vertices) {
         p.y = std::min(p.y, 500.0);
     }
@@ -117,12 +117,12 @@ Fault half_fault() {
 
 TEST_CASE("E2: between holes above a flat barrier the height is recovered, and a hair above it too") {
     const auto sites = holes();
-    Fault flat = fault_at_x(0, -2000, 3000);
+    Barrier flat = fault_at_x(0, -2000, 3000);
     for (Vec3& p : flat.sheet.vertices) {
         p = {p.y, p.z, -200};
     }
-    const std::vector<Fault> faults = {flat};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {flat};
+    const BarrierQuery proximity(faults);
     Random random(72);
     std::vector<Vec3> places;
     for (int i = 0; i < 300; ++i) {
@@ -139,9 +139,9 @@ TEST_CASE("E2: between holes above a flat barrier the height is recovered, and a
 TEST_CASE("E2: among random faults planes are recovered within the samples' hull") {
     for (const std::uint64_t seed : {1, 2}) {
         Random random(seed);
-        std::vector<Fault> faults(5);
+        std::vector<Barrier> faults(5);
         std::generate(faults.begin(), faults.end(), [&] { return random_fault(random); });
-        const FaultProximity proximity(faults);
+        const BarrierQuery proximity(faults);
         const Vec3 slope = random.in({{-1, -1, -1}, {1, 1, 1}});
         const Field plane = [&](const Vec3& p) { return 7 + dot(slope, p); };
         const double range = 1000 * (std::abs(slope.x) + std::abs(slope.y) + std::abs(slope.z));
@@ -209,7 +209,7 @@ TEST_CASE("E2: where samples do not tell a slope, the plane of least slope is ta
 
 TEST_CASE("E2: where no neighbour is seen, the nearest visible sample's plane is taken") {
     // A wall with a window: from behind it, off the window, only what lies far on the other side of it is seen.
-    std::vector<Fault> faults(4, fault_at_x(0, -1, 1));
+    std::vector<Barrier> faults(4, fault_at_x(0, -1, 1));
     const double window = 10, wall = 400;
     const std::array<std::array<double, 4>, 4> panels = {{{-wall, -window, -wall, wall},
                                                           {window, wall, -wall, wall},
@@ -220,7 +220,7 @@ TEST_CASE("E2: where no neighbour is seen, the nearest visible sample's plane is
         faults[k].sheet.vertices = {{0, y0, z0}, {0, y1, z0}, {0, y1, z1}, {0, y0, z1}};
         faults[k].spacing = 1;
     }
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     std::vector<Vec3> sites = places_in({{-60, -150, -150}, {-5, 150, 150}}, 300, 77);
     std::erase_if(sites, [](const Vec3& p) { return std::hypot(p.y, p.z) < 60; });
     const auto far = places_in({{-390, -40, -40}, {-300, 40, 40}}, 30, 78);
@@ -249,9 +249,9 @@ TEST_CASE("E2: where no neighbour is seen, the nearest visible sample's plane is
 TEST_CASE("E1: with 0 and 1 on the two sides of a fault every estimate is 0 or 1, slopes and all") {
     const auto sites = uniform_sites(800, 81);
     const Field sides = [](const Vec3& p) { return p.x > 500 ? 1.0 : 0.0; };
-    const auto check = [&](const Fault& fault, const Box3& box, const std::vector<std::string>& specs) {
-        const std::vector<Fault> faults = {fault};
-        const FaultProximity proximity(faults);
+    const auto check = [&](const Barrier& fault, const Box3& box, const std::vector<std::string>& specs) {
+        const std::vector<Barrier> faults = {fault};
+        const BarrierQuery proximity(faults);
         const auto places = places_in(box, 2000, 82);
         for (const auto& spec : specs) {
             CAPTURE(spec);
@@ -265,8 +265,8 @@ TEST_CASE("E1: with 0 and 1 on the two sides of a fault every estimate is 0 or 1
 }
 
 TEST_CASE("E2: round a fault's end estimates with slopes are continuous") {
-    const std::vector<Fault> faults = {half_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault()};
+    const BarrierQuery proximity(faults);
     Random random(83);
     const Model model = model_of(uniform_sites(1500, 84), [&](const Vec3& p) { return random() + 0.01 * p.x; });
     const auto largest_step = [&](const ModelEstimator& estimator, std::size_t steps) {
@@ -295,11 +295,11 @@ TEST_CASE("E2: beside a fault or a hard horizon that ends, the plane of each sid
     const Field sides = [](const Vec3& p) { return p.x > 500 ? 40 - 2 * p.x + p.z - p.y : 3 + p.x + p.y; };
     Model model = model_of(uniform_sites(1500, 97), sides);
     model.properties[0].hard_horizons = true;
-    model.faults = {half_fault()};
+    model.barriers = {half_fault()};
     const auto places = places_in({{440, 50, 250}, {560, 200, 750}}, 300, 98);
     for (const SurfaceKind kind : {SurfaceKind::fault, SurfaceKind::horizon}) {
-        model.faults[0].sheet.kind = kind;
-        const FaultProximity proximity = model_proximity(model);
+        model.barriers[0].sheet.kind = kind;
+        const BarrierQuery proximity = model_proximity(model);
         for (const auto& spec : family) {
             CAPTURE(to_string(kind), spec);
             CHECK(worst_error(values_at(model, proximity, spec, places), places, sides) <= 1e-9 * 4000);
@@ -308,8 +308,8 @@ TEST_CASE("E2: beside a fault or a hard horizon that ends, the plane of each sid
 }
 
 TEST_CASE("What slopes add keeps within the range of the property's values, and fades away from the samples") {
-    const std::vector<Fault> faults = {half_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault()};
+    const BarrierQuery proximity(faults);
     Random random(85);
     const Model model = model_of(uniform_sites(300, 86), [&](const Vec3&) { return random(-5, 7); });
     const auto [lowest, highest] = std::minmax_element(model.samples.values[0].begin(), model.samples.values[0].end());
@@ -335,8 +335,8 @@ TEST_CASE("What slopes add keeps within the range of the property's values, and 
 }
 
 TEST_CASE("Where nothing is hidden and no ghost has a share, estimates are the weighted means, bit for bit") {
-    const std::vector<Fault> faults = {half_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault()};
+    const BarrierQuery proximity(faults);
     Random random(88);
     const Model model = model_of(uniform_sites(1500, 89), [&](const Vec3&) { return random(-5, 7); });
     const auto places = places_in({{200, 200, 200}, {800, 800, 800}}, 1000, 90);
@@ -357,8 +357,8 @@ TEST_CASE("Where nothing is hidden and no ghost has a share, estimates are the w
 }
 
 TEST_CASE("A category is what the remaining weights say, without slopes") {
-    const std::vector<Fault> faults = {half_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault()};
+    const BarrierQuery proximity(faults);
     Model model = model_of(uniform_sites(500, 91), [](const Vec3& p) { return std::floor(p.y / 400); });
     model.properties = {{"rock", "", Scale::linear, Kind::categorical, {"a", "b", "c"}}};
     const auto places = places_in({{400, -200, 0}, {600, 1200, 1000}}, 1000, 92);
@@ -379,8 +379,8 @@ TEST_CASE("A category is what the remaining weights say, without slopes") {
 }
 
 TEST_CASE("R6: slopes have the same bits in any order of queries, of rows and at any thread count") {
-    const std::vector<Fault> faults = {half_fault(), fault_at_x(300, -2000, 3000)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault(), fault_at_x(300, -2000, 3000)};
+    const BarrierQuery proximity(faults);
     const auto sites = borehole_sites(20, 40, 93);
     const Field field = [](const Vec3& p) { return std::sin(p.x / 90) + std::cos(p.y / 70) + p.z / 300; };
     const auto places = places_in({{-200, -200, -200}, {1200, 1200, 1200}}, 3000, 94);

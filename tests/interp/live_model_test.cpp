@@ -56,7 +56,7 @@ TEST_CASE("A live model that was built and one opened from what was stored are a
     CHECK(a->mesh().cells == b->mesh().cells);
     CHECK(a->mesh().neighbours == b->mesh().neighbours);
     CHECK(a->cells().region == b->cells().region);
-    CHECK(a->cells().fault == b->cells().fault);
+    CHECK(a->cells().barrier == b->cells().barrier);
     CHECK(a->cells().reason == b->cells().reason);
     CHECK(a->is_delaunay());
     CHECK(b->is_delaunay());
@@ -102,12 +102,12 @@ TEST_CASE("A snapshot stays as it is while its model loses a fault, which leaves
     LiveModel live(world.site, world.options);
     const auto before = live.snapshot();
     const auto cells = before->mesh().cells;
-    REQUIRE(before->model().faults.size() == 1);
+    REQUIRE(before->model().barriers.size() == 1);
     CHECK_THROWS_AS(live.remove_surface("G"), UsageError);
     CHECK(live.snapshot() == before);
     live.remove_surface("F");
-    CHECK(live.model().faults.empty());
-    CHECK(before->model().faults.size() == 1);
+    CHECK(live.model().barriers.empty());
+    CHECK(before->model().barriers.size() == 1);
     CHECK(before->mesh().cells == cells);
 
     testing::World without = world;

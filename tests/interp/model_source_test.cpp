@@ -129,8 +129,8 @@ TEST_CASE("R6: a source gives the same bits one by one and in a batch, at any th
 }
 
 TEST_CASE("E1: with 0 on one side of a fault and 1 on the other every estimate is 0 or 1") {
-    const std::vector<Fault> faults = {fault_at_x(500, -1e4, 1e4)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault_at_x(500, -1e4, 1e4)};
+    const BarrierQuery proximity(faults);
     Model model;
     model.properties = {{"side", "", Scale::linear, Kind::continuous, {}}};
     model.samples.positions = uniform_sites(800, 6);

@@ -13,8 +13,8 @@
 #include "interp/plan/make_estimator.hpp"
 #include "natural_neighbour_oracle.hpp"
 #include "sites.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/error.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;
@@ -26,7 +26,7 @@ const std::vector<std::string> by_distance = {"nearest", "idw", "kriging:nugget=
                                               "kriging:drift=linear:nugget=0:sill=1:range=300:ratio3=1"};
 
 std::unique_ptr<Estimator> estimator_of(const std::string& spec, const std::vector<Vec3>& sites,
-                                        const FaultProximity* faults = nullptr) {
+                                        const BarrierQuery* faults = nullptr) {
     return make_estimator(parse_estimator(spec), sites, faults);
 }
 
@@ -58,8 +58,8 @@ std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
 
 /// A sheet x = height(y, z) over the square [lo, hi]² by n × n squares, each of two triangles.
 template <typename Height>
-Fault graph_over_yz(double lo, double hi, int n, Height height) {
-    Fault fault = fault_at_x(0, lo, hi);
+Barrier graph_over_yz(double lo, double hi, int n, Height height) {
+    Barrier fault = fault_at_x(0, lo, hi);
     fault.sheet.vertices.clear();
     fault.sheet.triangles.clear();
     for (int j = 0; j <= n; ++j) {
@@ -91,8 +91,8 @@ bool beyond_graph(const Vec3& p, double lo, double hi, int n, Height height) {
 }
 
 /// The fault y < 500 of the plane x = 500, through all z of interest.
-Fault half_fault() {
-    Fault fault = fault_at_x(500, -5000, 5000);
+Barrier half_fault() {
+    Barrier fault = fault_at_x(500, -5000, 5000);
     for (Vec3& p : fault.sheet.vertices) {
         p.y = std::min(p.y, 500.0);
     }
@@ -251,10 +251,10 @@ TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults h
     };
     struct Case {
         std::string name;
-        std::vector<Fault> faults;
+        std::vector<Barrier> faults;
         std::function<int(const Vec3&)> block;
     };
-    Fault across = fault_at_x(0, -2000, 3000);
+    Barrier across = fault_at_x(0, -2000, 3000);
     for (Vec3& p : across.sheet.vertices) {
         p = {p.y, 520, p.z};
     }
@@ -267,7 +267,7 @@ TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults h
              return 2 * int(p.x > 500) + int(p.y > 520);
          }}};
     for (const auto& [name, faults, block] : cases) {
-        const FaultProximity proximity(faults);
+        const BarrierQuery proximity(faults);
         auto everyone = family;
         everyone.insert(everyone.end(), by_distance.begin(), by_distance.end());
         everyone.emplace_back("natural:azimuth=30:dip=20:ratio2=0.5:ratio3=0.2");
@@ -293,8 +293,8 @@ TEST_CASE("E1: nothing across a through-going, a curved or two crossing faults h
 }
 
 TEST_CASE("E1: estimates are continuous round the end of a half fault") {
-    const std::vector<Fault> faults = {half_fault()};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {half_fault()};
+    const BarrierQuery proximity(faults);
     const auto sites = uniform_sites(1500, 61);
     const auto values = random_values(sites.size(), 62);
     auto continuous = family;

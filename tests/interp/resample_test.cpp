@@ -13,8 +13,8 @@
 
 #include "kuhn_mesh.hpp"
 #include "support.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/error.hpp"
 
 using namespace terratet;
 using terratet::testing::kuhn_mesh;
@@ -388,7 +388,7 @@ TEST_CASE("In a gap cell a voxel takes its own side's value: with 0 and 1 on the
     for (std::size_t v = 0; v < f.size(); ++v) {
         f[v] = mesh.points[v].x < 5 ? 0 : 1;
     }
-    std::vector<Fault> faults(1);
+    std::vector<Barrier> faults(1);
     faults[0].sheet.vertices = {{5, -1, -1}, {5, 11, -1}, {5, 11, 11}, {5, -1, 11}};
     faults[0].sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
     std::vector<std::int32_t> gap;
@@ -403,7 +403,7 @@ TEST_CASE("In a gap cell a voxel takes its own side's value: with 0 and 1 on the
     const auto mixed = resample_dense(field, lattice);
     CHECK(std::count_if(mixed.begin(), mixed.end(), [](float v) { return v > 0.1F && v < 0.9F; }) > 10000);
 
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     const OwnSide sides(mesh, gap, proximity);
     field.sides = &sides;
     const auto own = resample_dense(field, lattice);

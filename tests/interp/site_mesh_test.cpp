@@ -5,10 +5,11 @@
 #include <catch2/catch.hpp>
 
 #include "estimation.hpp"
-#include "interp/natural/cavity.hpp"
 #include "interp/estimator/estimator.hpp"
-#include "interp/plan/extrapolation.hpp"
+#include "interp/natural/cavity.hpp"
 #include "interp/natural/linear_precision.hpp"
+#include "interp/plan/extrapolation.hpp"
+#include "interp/plan/make_estimator.hpp"
 #include "regular_sites.hpp"
 
 using namespace terratet;

@@ -150,7 +150,7 @@ TEST_CASE("What is connected within the extent is one region, also through cells
     std::set<std::int32_t> west;
     std::set<std::int32_t> east;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (grid.cells.fault[mesh.parent[c]] >= 0) {
+        if (grid.cells.barrier[mesh.parent[c]] >= 0) {
             CHECK(mesh.region[c] == -1);
             continue;
         }
@@ -245,12 +245,12 @@ TEST_CASE(
 
 TEST_CASE("A clipped mesh mixes no values across a fault that passes beyond the extent") {
     LatticeModel lattice({{5, 5, 5}, {73, 95, 95}});
-    Fault wall;
+    Barrier wall;
     wall.spacing = 10;
     wall.width = 2.5;
     wall.sheet.vertices = {{75, -10, -10}, {75, 110, -10}, {75, 110, 110}, {75, -10, 110}};
     wall.sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-    lattice.model.faults.push_back(wall);
+    lattice.model.barriers.push_back(wall);
     for (std::size_t v = 0; v < lattice.mesh.points.size(); ++v) {
         lattice.model.vertex_values.values[0][v] = lattice.mesh.points[v].x < 75 ? 1 : 10;
     }

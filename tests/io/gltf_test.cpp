@@ -11,8 +11,8 @@
 #include <set>
 
 #include "grid_model.hpp"
-#include "io/write/color_map.hpp"
 #include "io/export.hpp"
+#include "io/write/color_map.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 
@@ -250,7 +250,7 @@ TEST_CASE("A property or colour map that does not exist is refused with those th
 TEST_CASE("A model without boreholes, faults or properties still makes a scene") {
     GridModel grid;
     grid.model.boreholes.clear();
-    grid.model.faults.clear();
+    grid.model.barriers.clear();
     grid.model.properties.clear();
     grid.model.samples = {};
     grid.model.vertex_values.values.clear();

@@ -26,7 +26,7 @@ namespace {
 Model plain_model() {
     for (std::uint64_t seed = 1;; ++seed) {
         Model model = testing::random_model(seed);
-        if (model.boreholes.size() > 2 && model.samples.size() > 10 && model.faults.size() > 1 &&
+        if (model.boreholes.size() > 2 && model.samples.size() > 10 && model.barriers.size() > 1 &&
             model.vertices.size() > 20 && model.vertices.front().role == Role::sample && !model.surfaces.empty() &&
             model.surfaces[0].triangles.size() > 2 && model.boreholes[1].path.size() > 2 &&
             !model.frame.crs_wkt.empty()) {

@@ -80,12 +80,12 @@ void check_same(const Model& a, const Model& b) {
     CHECK(a.criteria == b.criteria);
     CHECK(a.density == b.density);
     CHECK(a.region_names == b.region_names);
-    CHECK(same(a.fault_options.spacing, b.fault_options.spacing));
-    CHECK(same(a.fault_options.width, b.fault_options.width));
-    CHECK(same(a.fault_options.snap, b.fault_options.snap));
-    CHECK(a.fault_options.max_seeds == b.fault_options.max_seeds);
-    CHECK(a.fault_options.mode == b.fault_options.mode);
-    CHECK(a.faults == b.faults);
+    CHECK(same(a.barrier_options.spacing, b.barrier_options.spacing));
+    CHECK(same(a.barrier_options.width, b.barrier_options.width));
+    CHECK(same(a.barrier_options.snap, b.barrier_options.snap));
+    CHECK(a.barrier_options.max_seeds == b.barrier_options.max_seeds);
+    CHECK(a.barrier_options.mode == b.barrier_options.mode);
+    CHECK(a.barriers == b.barriers);
     CHECK(a.vertices == b.vertices);
     CHECK(same(a.vertex_values.values, b.vertex_values.values));
     CHECK(same(a.vertex_values.extrapolation, b.vertex_values.extrapolation));
@@ -147,14 +147,14 @@ std::string query(const std::string& path, const std::string& sql) {
 Model plain_model() {
     for (std::uint64_t seed = 1;; ++seed) {
         Model model = testing::random_model(seed);
-        if (model.boreholes.size() > 2 && model.samples.size() > 10 && model.faults.size() > 1 &&
+        if (model.boreholes.size() > 2 && model.samples.size() > 10 && model.barriers.size() > 1 &&
             model.vertices.size() > 20 && model.vertices.front().role == Role::sample && !model.surfaces.empty() &&
             model.surfaces[0].triangles.size() > 2 && model.samples.borehole[0] >= 0 && !model.domain.extent.empty()) {
             model.properties = {{"Cu", "%", Scale::linear, Kind::continuous, {}},
                                 {"rock", "", Scale::linear, Kind::categorical, {"gneiss", "granite"}}};
             model.criteria.variation.clear();
-            for (std::size_t f = 0; f < model.faults.size(); ++f) {
-                model.faults[f].name = "F" + std::to_string(f + 1);
+            for (std::size_t f = 0; f < model.barriers.size(); ++f) {
+                model.barriers[f].name = "F" + std::to_string(f + 1);
             }
             for (auto* values : {&model.samples.values, &model.vertex_values.values}) {
                 const std::size_t rows = values == &model.samples.values ? model.samples.size() : model.vertices.size();
@@ -258,9 +258,9 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
             m.region_names.push_back({{}, "another"});
         },
         [](Model& m) { m.density = m.density == DensityMode::paper ? DensityMode::canonical : DensityMode::paper; },
-        [](Model& m) { m.fault_options.snap += 1; },
-        [](Model& m) { m.faults[0].seeds.push_back({}); },
-        [](Model& m) { m.faults[1].width += 1; },
+        [](Model& m) { m.barrier_options.snap += 1; },
+        [](Model& m) { m.barriers[0].seeds.push_back({}); },
+        [](Model& m) { m.barriers[1].width += 1; },
         [](Model& m) { m.vertices[4].position.y += 1; },
         [](Model& m) { m.vertices[4].side = 1; },
         [](Model& m) { m.vertex_values.extrapolation[2] += 0.5; },
@@ -274,7 +274,7 @@ TEST_CASE("The digest changes with everything that exports show, and with nothin
     }
     Model moved = model;
     moved.surfaces[0].file = "/elsewhere.ts";
-    moved.faults[0].sheet.file = "/elsewhere.ts";
+    moved.barriers[0].sheet.file = "/elsewhere.ts";
     CHECK(model_digest(moved) == digest);
     // The well-known value for an empty message, through the same library call path, is checked by OpenSSL itself; here
     // a fixed model guards the stream's format: a change of it makes stored digests worthless.
@@ -314,7 +314,7 @@ TEST_CASE("A model file is a GeoPackage that other programs open: layers, types,
     OGRLayer* const samples = check_layer("samples", wkbPoint25D, model.samples.size());
     check_layer("boreholes", wkbLineStringZM, model.boreholes.size());
     OGRLayer* const surfaces =
-        check_layer("surfaces", wkbMultiPolygon25D, model.surfaces.size() + 2 * model.faults.size());
+        check_layer("surfaces", wkbMultiPolygon25D, model.surfaces.size() + 2 * model.barriers.size());
     OGRLayer* const vertices = check_layer("vertices", wkbPoint25D, model.vertices.size());
     check_layer("terratet_meta", wkbNone, 11);
     check_layer("terratet_journal", wkbNone, 1);

@@ -168,7 +168,7 @@ struct RandomModel {
 
     void add_faults() {
         for (std::uint64_t n = random.below(4); n > 0; --n) {
-            Fault f;
+            Barrier f;
             f.name = odd_name(random);
             f.sheet = surface(SurfaceKind::fault);
             f.margin = surface(SurfaceKind::fault);
@@ -180,7 +180,7 @@ struct RandomModel {
             f.width = random(0.1, 5);
             f.covering_radius = random(1, 30);
             f.protection_radius = random(1, 30);
-            model.faults.push_back(f);
+            model.barriers.push_back(f);
         }
     }
 
@@ -195,9 +195,9 @@ struct RandomModel {
                 add(model.samples.positions[i], Role::sample, static_cast<std::int32_t>(i), 0);
             }
         }
-        for (std::size_t f = 0; f < model.faults.size(); ++f) {
+        for (std::size_t f = 0; f < model.barriers.size(); ++f) {
             const bool as_they_are = random.below(3) > 0;  // else seeds and vertices differ
-            for (const Seed& seed : model.faults[f].seeds) {
+            for (const Seed& seed : model.barriers[f].seeds) {
                 if (as_they_are || random.below(2)) {
                     add(seed.position, Role::seed, static_cast<std::int32_t>(f), seed.side);
                 }
@@ -233,14 +233,14 @@ struct RandomModel {
             model.region_names.push_back({place(), odd_name(random)});
         }
         model.density = random.below(2) ? DensityMode::paper : DensityMode::canonical;
-        model.fault_options = {random(0, 10),
-                               random(0, 1),
-                               random(0, 5),
-                               random.below(1ULL << 63),
-                               random.below(2) == 0 ? FaultMode::paired : FaultMode::exact,
-                               random.below(2) == 0};
-        for (Fault& f : model.faults) {
-            f.refined = model.fault_options.refine;
+        model.barrier_options = {random(0, 10),
+                                 random(0, 1),
+                                 random(0, 5),
+                                 random.below(1ULL << 63),
+                                 random.below(2) == 0 ? SeedMode::paired : SeedMode::exact,
+                                 random.below(2) == 0};
+        for (Barrier& f : model.barriers) {
+            f.refined = model.barrier_options.refine;
         }
         const auto box_round = [&](Box3 some) {
             for (int corners = 2; corners > 0; --corners) {

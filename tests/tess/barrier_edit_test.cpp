@@ -23,7 +23,7 @@ ValueBatch field(std::span<const ValueQuery> queries) {
     batch.values.resize(2);
     for (const ValueQuery& query : queries) {
         batch.values[0].push_back(query.position.x + 3 * query.side);
-        batch.values[1].push_back(std::sin(query.position.y) * query.fault);
+        batch.values[1].push_back(std::sin(query.position.y) * query.barrier);
         batch.extrapolation.push_back(0.001 * query.position.z);
     }
     return batch;
@@ -81,40 +81,40 @@ TEST_CASE("F3: a fault in and out again is the identity, in 200 random cases") {
     std::size_t removed = 0;
     for (int run = 0; run < 200; ++run) {
         INFO("run " << run);
-        FaultOptions options;
-        options.mode = run % 3 == 0 ? FaultMode::exact : FaultMode::paired;
+        BarrierOptions options;
+        options.mode = run % 3 == 0 ? SeedMode::exact : SeedMode::paired;
         std::vector<Surface> surfaces;
         for (std::uint64_t k = 0; k < 1 + random.below(2); ++k) {
             surfaces.push_back(testing::dipping("f" + std::to_string(k), random.in(extent.grown(-40)), random(0, 360),
                                                 random(15, 90), random(20, 90), random(20, 90)));
         }
-        const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, spacing, options);
+        const BarrierPreparation preparation = prepare_barriers(surfaces, extent, {}, spacing, options);
         const Domain domain{extent, extent.grown(hull_margin(options, spacing))};
         const std::uint64_t seed = random.below(1000000);
         testing::Random one(seed);
         testing::Random other(seed);
         const World before = random_world(one, run % 2 == 1, domain.hull);
         World world = random_world(other, run % 2 == 1, domain.hull);
-        std::vector<FaultChange> changes;
-        for (std::size_t f = 0; f < preparation.faults.size(); ++f) {
-            changes.push_back(insert_fault(world.tessellation, world.values, domain, preparation.faults[f],
-                                           static_cast<std::int32_t>(f), field));
+        std::vector<BarrierChange> changes;
+        for (std::size_t f = 0; f < preparation.barriers.size(); ++f) {
+            changes.push_back(insert_barrier(world.tessellation, world.values, domain, preparation.barriers[f],
+                                             static_cast<std::int32_t>(f), field));
             REQUIRE(changes.back().ids.size() > 4);
             removed += changes.back().removed.vertices.size();
         }
         REQUIRE(world.tessellation.is_delaunay());
-        const FaultProximity faults(preparation.faults);
+        const BarrierQuery faults(preparation.barriers);
         for (std::size_t i = 0; i < world.tessellation.vertices().size(); ++i) {
             const Vertex& vertex = world.tessellation.vertices()[i];
             REQUIRE((vertex.role == Role::seed || vertex.role == Role::domain ||
-                     faults.protecting_fault(vertex.position) < 0));
+                     faults.protecting_barrier(vertex.position) < 0));
             REQUIRE(world.values.values[0][i] == vertex.position.x + 3 * vertex.side);
         }
         if (run % 4 == 0) {
             std::ranges::reverse(changes);  // the first one out first: what they removed does not overlap
         }
         for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
-            take_out_fault(world.tessellation, world.values, *change);
+            take_out_barrier(world.tessellation, world.values, *change);
         }
         check_equal(world, before);
     }

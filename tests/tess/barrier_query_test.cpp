@@ -14,8 +14,8 @@ namespace terratet {
 namespace {
 
 /// A wavy sheet over [0, width]², its margin a ring of one more row, and a protection radius to match the spacing.
-Fault wavy_fault(const Vec3& at, double width, int rows, double protection) {
-    Fault fault;
+Barrier wavy_fault(const Vec3& at, double width, int rows, double protection) {
+    Barrier fault;
     fault.protection_radius = protection;
     for (int j = -1; j <= rows + 1; ++j) {
         for (int i = -1; i <= rows + 1; ++i) {
@@ -47,7 +47,7 @@ double distance_to(const Surface& surface, const Vec3& p) {
     return least;
 }
 
-std::int32_t protecting_by_definition(std::span<const Fault> faults, const Vec3& p) {
+std::int32_t protecting_by_definition(std::span<const Barrier> faults, const Vec3& p) {
     for (std::size_t f = 0; f < faults.size(); ++f) {
         if (std::min(distance_to(faults[f].sheet, p), distance_to(faults[f].margin, p)) < faults[f].protection_radius) {
             return static_cast<std::int32_t>(f);
@@ -73,47 +73,47 @@ bool crosses_by_definition(const Surface& surface, const Vec3& a, const Vec3& b)
 }  // namespace
 
 TEST_CASE("A point is protected exactly where its distance to sheet or margin is below the protection radius") {
-    const std::vector<Fault> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), wavy_fault({60, 60, 20}, 80, 16, 3),
-                                       wavy_fault({-500, 0, 0}, 4, 1, 0.1)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), wavy_fault({60, 60, 20}, 80, 16, 3),
+                                         wavy_fault({-500, 0, 0}, 4, 1, 0.1)};
+    const BarrierQuery proximity(faults);
     testing::Random random(7);
     std::size_t near = 0;
     for (int i = 0; i < 20000; ++i) {
         Vec3 p = random.in({{-30, -30, -30}, {180, 180, 60}});
         if (i % 4 == 0) {  // right at the limit of one of them
-            const Fault& fault = faults[random.below(2)];
+            const Barrier& fault = faults[random.below(2)];
             const Vec3& on = fault.sheet.vertices[random.below(fault.sheet.vertices.size())];
             p = on + fault.protection_radius * random(0.999, 1.001) * Vec3{0, 0, 1};
         }
         const std::int32_t expected = protecting_by_definition(faults, p);
         near += expected >= 0 ? 1 : 0;
-        REQUIRE(proximity.protecting_fault(p) == expected);
+        REQUIRE(proximity.protecting_barrier(p) == expected);
     }
     CHECK(near > 3000);
-    CHECK(proximity.protecting_fault({-500, 1, 0.05}) == 2);
-    CHECK(proximity.protecting_fault({1e9, -1e9, 1e9}) == -1);
-    CHECK(proximity.protecting_fault({std::nan(""), 0, 0}) == -1);
+    CHECK(proximity.protecting_barrier({-500, 1, 0.05}) == 2);
+    CHECK(proximity.protecting_barrier({1e9, -1e9, 1e9}) == -1);
+    CHECK(proximity.protecting_barrier({std::nan(""), 0, 0}) == -1);
 }
 
 TEST_CASE("Protection is exact for triangles a thousand times larger than the radius") {
-    Fault fault;
+    Barrier fault;
     fault.protection_radius = 1;
     fault.sheet.vertices = {{0, 0, 0}, {1000, 0, 700}, {0, 1000, 300}};
     fault.sheet.triangles = {{0, 1, 2}};
-    const std::vector<Fault> faults = {fault};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {fault};
+    const BarrierQuery proximity(faults);
     testing::Random random(3);
     for (int i = 0; i < 20000; ++i) {
         const double u = random(-0.1, 1.1);
         const double v = random(-0.1, 1.1);
         const Vec3 p = {1000 * u, 1000 * v, 700 * u + 300 * v + random(-3, 3)};
-        REQUIRE(proximity.protecting_fault(p) == protecting_by_definition(faults, p));
+        REQUIRE(proximity.protecting_barrier(p) == protecting_by_definition(faults, p));
     }
 }
 
 TEST_CASE("Segments cross a sheet as exact arithmetic says, touching and degenerate ones included") {
-    const std::vector<Fault> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), wavy_fault({60, 60, 20}, 80, 16, 3)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), wavy_fault({60, 60, 20}, 80, 16, 3)};
+    const BarrierQuery proximity(faults);
     testing::Random random(11);
     std::size_t crossing = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -142,8 +142,8 @@ TEST_CASE("Segments cross a sheet as exact arithmetic says, touching and degener
 }
 
 TEST_CASE("The distance to a sheet is that to its nearest triangle, margins not counted") {
-    const std::vector<Fault> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), Fault{}};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {wavy_fault({0, 0, 0}, 100, 8, 9), Barrier{}};
+    const BarrierQuery proximity(faults);
     testing::Random random(13);
     for (int i = 0; i < 500; ++i) {
         const Vec3 p = random.in({{-60, -60, -60}, {160, 160, 60}});
@@ -152,20 +152,20 @@ TEST_CASE("The distance to a sheet is that to its nearest triangle, margins not 
     CHECK(std::isinf(proximity.distance_to_sheet(1, {0, 0, 0})));
     CHECK_FALSE(proximity.crosses(1, {0, 0, -1}, {0, 0, 1}));
     CHECK_FALSE(proximity.empty());
-    CHECK(FaultProximity({}).empty());
-    CHECK(FaultProximity({}).protecting_fault({0, 0, 0}) == -1);
+    CHECK(BarrierQuery({}).empty());
+    CHECK(BarrierQuery({}).protecting_barrier({0, 0, 0}) == -1);
 }
 
 TEST_CASE("Queries from several threads agree with those from one") {
-    const std::vector<Fault> faults = {wavy_fault({0, 0, 0}, 100, 30, 3), wavy_fault({60, 60, 20}, 80, 16, 3)};
-    const FaultProximity proximity(faults);
+    const std::vector<Barrier> faults = {wavy_fault({0, 0, 0}, 100, 30, 3), wavy_fault({60, 60, 20}, 80, 16, 3)};
+    const BarrierQuery proximity(faults);
     const auto digest = [&] {
         testing::Random random(17);
         double sum = 0;
         for (int i = 0; i < 3000; ++i) {
             const Vec3 a = random.in({{-30, -30, -30}, {180, 180, 60}});
             const Vec3 b = random.in({{-30, -30, -30}, {180, 180, 60}});
-            sum += proximity.distance_to_sheet(i % 2, a) + proximity.protecting_fault(a) +
+            sum += proximity.distance_to_sheet(i % 2, a) + proximity.protecting_barrier(a) +
                    (proximity.crosses_any(a, b) ? 10 : 0);
         }
         return sum;

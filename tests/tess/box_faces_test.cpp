@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tess/refine/box_faces.hpp"
 #include "tess/model/density_edition.hpp"
+#include "tess/refine/box_faces.hpp"
 #include "tess/refine/refine.hpp"
 #include "tests/support.hpp"
 
@@ -100,8 +100,8 @@ std::uint64_t inserted(const Task& task, double l_max) {
     criteria.l_min = task.l_min;
     criteria.l_max = l_max;
     criteria.variation.resize(1);
-    const std::vector<Fault> no_faults;
-    const FaultProximity proximity(no_faults);
+    const std::vector<Barrier> no_faults;
+    const BarrierQuery proximity(no_faults);
     Samples samples;
     samples.positions = task.points;
     std::vector<Vertex> vertices;

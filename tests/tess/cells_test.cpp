@@ -43,7 +43,7 @@ std::map<std::int32_t, double> region_volumes(const TetMesh& mesh, const CellTab
 TEST_CASE("A fault through the whole extent makes two regions of the right size; a half fault leaves one") {
     const auto through = testing::planar_fault("through", {150, 150, -100}, 0, 90, 500, 400, 15);
     const auto built = testing::build_world(quiet_world({through}));
-    REQUIRE(built.model.faults.size() == 1);
+    REQUIRE(built.model.barriers.size() == 1);
     const TetMesh mesh = tessellate(built.model).mesh();
     const CellTable table = describe_cells(built.model, mesh);
     CHECK(table.region_count == 2);
@@ -67,7 +67,7 @@ TEST_CASE("A fault through the whole extent makes two regions of the right size;
 
     const auto half_fault = testing::planar_fault("half", {150, 150, -100}, 0, 90, 60, 50, 15);
     const auto other = testing::build_world(quiet_world({half_fault}));
-    REQUIRE(other.model.faults.size() == 1);
+    REQUIRE(other.model.barriers.size() == 1);
     CHECK(other.report.final.regions == 1);
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("A linear field is reproduced at every sample, dropped ones included")
     BuildReport report;
     const auto built = build(
         world.site, world.options,
-        [&](const Model&, const FaultProximity&) {
+        [&](const Model&, const BarrierQuery&) {
             return [&](std::span<const ValueQuery> queries) {
                 ValueBatch batch{{{}, std::vector<double>(queries.size(), missing)},
                                  std::vector<double>(queries.size(), 0)};

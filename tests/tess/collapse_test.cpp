@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "tess/barrier_query.hpp"
 #include "tess/base/box_clip.hpp"
 #include "tess/collapse.hpp"
-#include "tess/barrier_query.hpp"
 #include "tests/tess/fault_cases.hpp"
 #include "tests/tess/worlds.hpp"
 
@@ -18,15 +18,15 @@ namespace {
 
 const Box3 extent{{0, 0, -200}, {300, 300, 0}};
 
-Model model_with(const std::vector<Surface>& faults, FaultMode mode = FaultMode::paired) {
+Model model_with(const std::vector<Surface>& faults, SeedMode mode = SeedMode::paired) {
     testing::World world = testing::random_world(5);
     world.site.surfaces = faults;
     world.options.extent = extent;
     world.options.criteria = {};
     world.options.criteria.l_min = 15;
     world.options.criteria.l_max = 60;
-    world.options.faults.spacing = 15;
-    world.options.faults.mode = mode;
+    world.options.barriers.spacing = 15;
+    world.options.barriers.mode = mode;
     return testing::build_world(world).model;
 }
 
@@ -64,7 +64,7 @@ struct SplitArea {
 };
 SplitArea split_area(const CollapsedModel& result) {
     const Box3& box = result.model.domain.extent;
-    const FaultProximity faults(result.model.faults);
+    const BarrierQuery faults(result.model.barriers);
     SplitArea split;
     for (std::size_t c = 0; c < result.mesh.cells.size(); ++c) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -83,7 +83,7 @@ SplitArea split_area(const CollapsedModel& result) {
             split.area += 0.5 * length(area);
             for (const Vec3& p : corners) {
                 double nearest = std::numeric_limits<double>::infinity();
-                for (std::size_t f = 0; f < result.model.faults.size() && box.contains(p); ++f) {
+                for (std::size_t f = 0; f < result.model.barriers.size() && box.contains(p); ++f) {
                     nearest = std::min(nearest, faults.distance_to_sheet(static_cast<std::int32_t>(f), p));
                 }
                 split.off = std::max(split.off, box.contains(p) ? nearest : 0);
@@ -95,7 +95,7 @@ SplitArea split_area(const CollapsedModel& result) {
 
 double sheet_area(const Model& model) {
     double area = 0;
-    for (const Fault& fault : model.faults) {
+    for (const Barrier& fault : model.barriers) {
         area += statistics(fault.sheet).area;
     }
     return area;
@@ -103,7 +103,7 @@ double sheet_area(const Model& model) {
 
 std::size_t triangle_count(const Model& model) {
     std::size_t count = 0;
-    for (const Fault& fault : model.faults) {
+    for (const Barrier& fault : model.barriers) {
         count += fault.sheet.triangles.size();
     }
     return count;
@@ -161,7 +161,7 @@ void check(const CollapsedModel& result) {
     CHECK(ids.size() == result.model.vertices.size());
     CHECK(result.model.vertices.size() == result.mesh.points.size());
     CHECK(result.cells.region.size() == result.mesh.cells.size());
-    CHECK(std::ranges::all_of(result.cells.fault, [](std::int32_t fault) { return fault < 0; }));
+    CHECK(std::ranges::all_of(result.cells.barrier, [](std::int32_t fault) { return fault < 0; }));
     for (std::size_t i = 0; i < result.cells.region.size(); ++i) {
         REQUIRE((result.cells.region[i] >= 0) == (result.cells.in_extent[i] != 0));
     }
@@ -173,7 +173,7 @@ TEST_CASE("A collapsed fault is a surface of mirrored facets in a mesh that stil
     for (const Surface& surface : {plane(), dipping(), half(), wavy()}) {
         INFO(surface.name);
         const Model model = model_with({surface});
-        REQUIRE(model.faults.size() == 1);
+        REQUIRE(model.barriers.size() == 1);
         const CollapsedModel result = collapsed(model);
         check(result);
         CHECK(result.report.apart.empty());
@@ -189,8 +189,8 @@ TEST_CASE("A collapsed fault is a surface of mirrored facets in a mesh that stil
 TEST_CASE("In exact mode a collapsed fault is made of its own triangles") {
     for (const Surface& surface : {plane(), dipping(), half(), wavy(), cylinder()}) {
         INFO(surface.name);
-        const Model model = model_with({surface}, FaultMode::exact);
-        REQUIRE(model.faults.size() == 1);
+        const Model model = model_with({surface}, SeedMode::exact);
+        REQUIRE(model.barriers.size() == 1);
         const CollapsedModel result = collapsed(model);
         check(result);
         CHECK(result.report.apart.empty());
@@ -202,10 +202,10 @@ TEST_CASE("In exact mode a collapsed fault is made of its own triangles") {
         CHECK(result.cells.region_count == (surface.name == "half" || surface.name == "cylinder" ? 1 : 2));
         if (surface.name == "half") {
             CHECK(result.report.added_places == 0);
-            CHECK(result.report.conformity.mirrored_facets == inner_triangles(model.faults[0].sheet));
+            CHECK(result.report.conformity.mirrored_facets == inner_triangles(model.barriers[0].sheet));
         }
         if (surface.name != "dipping") {  // six of its triangles are not certified: seeds about them are uneven
-            const Surface& sheet = model.faults[0].sheet;
+            const Surface& sheet = model.barriers[0].sheet;
             const std::set<Vec3> own(sheet.vertices.begin(), sheet.vertices.end());
             std::size_t inside = 0;
             for (const auto& [place, nodes] : nodes_by_place(result)) {
@@ -220,7 +220,7 @@ TEST_CASE("In exact mode a collapsed fault is made of its own triangles") {
 }
 
 TEST_CASE("In exact mode a node on a fault has the mean of the seeds round it on its side, on the rim of both sides") {
-    Model model = model_with({half()}, FaultMode::exact);
+    Model model = model_with({half()}, SeedMode::exact);
     model.properties[0].scale = Scale::linear;
     model.properties[0].kind = Kind::continuous;
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
@@ -231,7 +231,7 @@ TEST_CASE("In exact mode a node on a fault has the mean of the seeds round it on
     std::size_t on_side = 0;
     std::size_t on_rim = 0;
     const auto places = nodes_by_place(result);
-    for (const Vec3& place : model.faults[0].sheet.vertices) {
+    for (const Vec3& place : model.barriers[0].sheet.vertices) {
         REQUIRE(places.contains(place));
         double least = std::numeric_limits<double>::infinity();
         for (const Vertex& vertex : model.vertices) {
@@ -286,10 +286,10 @@ TEST_CASE("Collapsing keeps regions apart, their numbers, and nearly their volum
 }
 
 TEST_CASE("On a fault there are two nodes at a place, on its rim and in its margin one") {
-    const FaultMode mode = GENERATE(FaultMode::paired, FaultMode::exact);
+    const SeedMode mode = GENERATE(SeedMode::paired, SeedMode::exact);
     const Model model = model_with({half()}, mode);
     const CollapsedModel result = collapsed(model);
-    const Surface& sheet = model.faults[0].sheet;
+    const Surface& sheet = model.barriers[0].sheet;
     const std::set<std::uint32_t> on_rim = rim_vertices(sheet);
     std::size_t inner = 0;
     const auto places = nodes_by_place(result);
@@ -380,7 +380,7 @@ TEST_CASE("Collapsing gives conforming meshes in random worlds, faults meeting t
     std::size_t with_faults = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const Model model = testing::build_world(testing::random_world(seed)).model;
-        if (model.faults.empty()) {
+        if (model.barriers.empty()) {
             continue;
         }
         INFO("world " << seed);
@@ -402,9 +402,9 @@ TEST_CASE(
     testing::Random random(4);
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         testing::World world = testing::random_world(seed);
-        world.options.faults.mode = FaultMode::exact;
+        world.options.barriers.mode = SeedMode::exact;
         Model model = testing::build_world(world).model;
-        if (model.faults.empty()) {
+        if (model.barriers.empty()) {
             continue;
         }
         INFO("world " << seed);
@@ -414,10 +414,10 @@ TEST_CASE(
         CHECK(result.report.conformity.leaking <= 1);  // a corner of a fault has no node that could be split
         CHECK(result.report.apart.empty());
         // Few but where faults cross at a sharp angle.
-        CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(model.faults.size() == 1 ? 1e-3 : 0.06));
-        CHECK(result.report.aside.size() <= (model.faults.size() == 1 ? 0 : triangle_count(model)));
+        CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(model.barriers.size() == 1 ? 1e-3 : 0.06));
+        CHECK(result.report.aside.size() <= (model.barriers.size() == 1 ? 0 : triangle_count(model)));
 
-        const Surface& sheet = model.faults[0].sheet;
+        const Surface& sheet = model.barriers[0].sheet;
         const Vec3 place = sheet.vertices[random.below(sheet.vertices.size())];
         model.vertices.push_back(
             {model.vertices.back().id + 1, model.frame.snapped(place + Vec3{0.3, 0.2, 0.1}), Role::inserted, -1, 0});
@@ -474,14 +474,14 @@ TEST_CASE("Where faults meet, each wedge has a node of its own, and the blocks s
     const std::vector<std::pair<std::vector<Surface>, std::size_t>> cases{
         {{plane(), abutting}, 3}, {{plane(), crossing}, 4}, {{plane(), crossing, flat}, 8}};
     for (const auto& [faults, blocks] : cases) {
-        for (const FaultMode mode : {FaultMode::paired, FaultMode::exact}) {
-            INFO(blocks << " blocks" << (mode == FaultMode::exact ? ", exact" : ", paired"));
+        for (const SeedMode mode : {SeedMode::paired, SeedMode::exact}) {
+            INFO(blocks << " blocks" << (mode == SeedMode::exact ? ", exact" : ", paired"));
             const Model model = model_with(faults, mode);
-            REQUIRE(model.faults.size() == faults.size());
+            REQUIRE(model.barriers.size() == faults.size());
             const CollapsedModel result = collapsed(model);
             check(result);
             CHECK(result.cells.region_count == static_cast<std::int32_t>(blocks));
-            const bool exact = mode == FaultMode::exact;
+            const bool exact = mode == SeedMode::exact;
             CHECK(result.report.split_area == Approx(sheet_area(model)).epsilon(exact ? 0.03 : 1e-3));
             CHECK(result.report.aside.size() + result.report.apart.size() <=
                   triangle_count(model) / (exact ? 10 : 100));

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "support.hpp"
-#include "tess/base/compatible.hpp"
 #include "tess/barrier/complex/complex_mender.hpp"
+#include "tess/base/compatible.hpp"
 
 namespace terratet {
 namespace {
@@ -19,8 +19,8 @@ constexpr int cells = 6;
 
 /// Two sheets of cells × cells squares that meet along the y axis, the one so much above the plane z = 0 as the other
 /// is below it.
-FaultComplex open_book(double angle_deg) {
-    FaultComplex complex;
+SheetComplex open_book(double angle_deg) {
+    SheetComplex complex;
     const auto number = [&](std::uint32_t sheet, int i, int j) {
         return static_cast<std::uint32_t>(i == 0 ? j : (cells + 1) * (1 + cells * static_cast<int>(sheet) + i - 1) + j);
     };
@@ -47,7 +47,7 @@ FaultComplex open_book(double angle_deg) {
 }
 
 /// At the book's back, but for its ends, where the rims hold the pages.
-double sharpest(const FaultComplex& complex) {
+double sharpest(const SheetComplex& complex) {
     const EdgeTable edges(complex.triangles);
     double least = std::numbers::pi;
     for (const EdgeTable::Edge& e : edges.edges()) {
@@ -62,7 +62,7 @@ double sharpest(const FaultComplex& complex) {
 }  // namespace
 
 TEST_CASE("Triangles that meet at less than ten degrees are turned apart, and bounds stay where they are") {
-    const FaultComplex before = open_book(6);
+    const SheetComplex before = open_book(6);
     REQUIRE(sharpest(before) < least_wedge);
     const SizeField sizes(edge);
     const Patches numbering = patches(before, EdgeTable(before.triangles));
@@ -70,7 +70,7 @@ TEST_CASE("Triangles that meet at less than ten degrees are turned apart, and bo
         INFO("the first is " << (bound ? "a bound" : "a fault"));
         ComplexEditor editor(before, numbering, sizes, std::vector<char>{bound ? '\1' : '\0', '\0'});
         ComplexMender(editor).open_wedges();
-        const FaultComplex after = editor.result();
+        const SheetComplex after = editor.result();
         CHECK(sharpest(after) >= least_wedge);
         CHECK(sharpest(after) < 1.1 * least_wedge);
         REQUIRE(after.points.size() == before.points.size());

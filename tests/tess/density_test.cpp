@@ -50,8 +50,8 @@ std::vector<Vec3> places(const Samples& samples, const std::vector<std::uint32_t
 }
 
 /// A square fault through the middle, as two triangles.
-std::vector<Fault> one_fault() {
-    Fault fault;
+std::vector<Barrier> one_fault() {
+    Barrier fault;
     fault.sheet.vertices = {{50, 50, -150}, {250, 50, -150}, {250, 250, -150}, {50, 250, -150}};
     fault.sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
     fault.protection_radius = 15;
@@ -66,8 +66,8 @@ TEST_CASE("D1: no two kept samples are closer than l_min") {
         const Samples samples = random_samples(random, 1 + round % 6, 100, 50 * (round % 3));
         for (const DensityMode mode : {DensityMode::canonical, DensityMode::paper}) {
             const double l_min = random(3, 40);
-            const std::vector<Fault> none;
-            const auto result = edit_density(samples, l_min, mode, FaultProximity(none));
+            const std::vector<Barrier> none;
+            const auto result = edit_density(samples, l_min, mode, BarrierQuery(none));
             const auto kept = places(samples, result.kept);
             REQUIRE(!kept.empty());
             for (const Vec3& p : kept) {
@@ -80,7 +80,7 @@ TEST_CASE("D1: no two kept samples are closer than l_min") {
 TEST_CASE("D2: every dropped sample has a kept one within l_min, or lies in a fault's protection zone") {
     testing::Random random(12);
     const auto faults = one_fault();
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     for (int round = 0; round < 40; ++round) {
         const Samples samples = random_samples(random, 1 + round % 6, 100, 40);
         for (const DensityMode mode : {DensityMode::canonical, DensityMode::paper}) {
@@ -104,7 +104,7 @@ TEST_CASE("D2: every dropped sample has a kept one within l_min, or lies in a fa
 TEST_CASE("D3: density edition does not depend on the order of the input") {
     testing::Random random(13);
     const auto faults = one_fault();
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     for (int round = 0; round < 20; ++round) {
         Samples samples = random_samples(random, 4, 80, 30);
         std::vector<std::uint32_t> shuffled(samples.size());
@@ -133,8 +133,8 @@ TEST_CASE("The canonical order keeps what fits along a hole; the paper's rule do
         hole.length.push_back(0);
         hole.values[0].push_back(i);
     }
-    const std::vector<Fault> none;
-    const FaultProximity no_faults(none);
+    const std::vector<Barrier> none;
+    const BarrierQuery no_faults(none);
     CHECK(edit_density(hole, 20, DensityMode::canonical, no_faults).kept.size() == 41);  // one in eight: 20.8 apart
     const auto by_paper = edit_density(hole, 20, DensityMode::paper, no_faults).kept.size();
     CHECK(by_paper >= 28);

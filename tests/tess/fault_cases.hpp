@@ -74,12 +74,12 @@ inline Surface wavy() {
 
 /// What every preparation promises: a complete account (F4), distinct seeds in the hull box off its faces, mirrored
 /// pairs, and covering of sheet and margin within ρ at sampled points.
-inline void check_promises(const std::vector<Surface>& surfaces, const FaultPreparation& preparation,
-                           const Box3& extent, double l_min, const FaultOptions& options = {}) {
+inline void check_promises(const std::vector<Surface>& surfaces, const BarrierPreparation& preparation,
+                           const Box3& extent, double l_min, const BarrierOptions& options = {}) {
     REQUIRE(preparation.accounts.size() == surfaces.size());
     std::size_t used = 0;
     std::size_t seeds = 0;
-    for (const FaultAccount& account : preparation.accounts) {
+    for (const BarrierAccount& account : preparation.accounts) {
         INFO(account.name << ": " << account.reason);
         const double sum = account.area_used + account.area_trimmed + account.area_outside + account.area_refused;
         REQUIRE(std::isfinite(account.area_in));
@@ -93,11 +93,11 @@ inline void check_promises(const std::vector<Surface>& surfaces, const FaultPrep
         used += account.used ? 1 : 0;
         seeds += account.seeds;
     }
-    REQUIRE(preparation.faults.size() == used);
-    const bool exact = options.mode == FaultMode::exact;
+    REQUIRE(preparation.barriers.size() == used);
+    const bool exact = options.mode == SeedMode::exact;
     std::set<Vec3> places;
     const Box3 clear = extent.grown(hull_margin(options, l_min)).grown(-0.3 * l_min);
-    for (const Fault& fault : preparation.faults) {
+    for (const Barrier& fault : preparation.barriers) {
         REQUIRE(fault.seeds.size() % 2 == 0);
         REQUIRE((exact || fault.covering_radius <= fault.spacing / std::numbers::sqrt2 * (1 + 1e-5)));
         for (std::size_t k = 0; k < fault.seeds.size(); k += 2) {
@@ -126,18 +126,18 @@ struct CrossingCount {
 
 /// Tessellates the seeds with background points, half of them right at `limit` protection radii from the faults and
 /// none nearer, and counts the edges that cross.
-inline CrossingCount count_crossings(const std::vector<Fault>& faults, const Box3& hull, std::size_t background,
+inline CrossingCount count_crossings(const std::vector<Barrier>& faults, const Box3& hull, std::size_t background,
                                      double limit, std::uint64_t random_seed) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Base = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
     using Delaunay = CGAL::Delaunay_triangulation_3<
         Kernel, CGAL::Triangulation_data_structure_3<Base, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
-    std::vector<Fault> scaled = faults;
-    for (Fault& fault : scaled) {
+    std::vector<Barrier> scaled = faults;
+    for (Barrier& fault : scaled) {
         fault.protection_radius *= limit;
     }
-    const FaultProximity zone(scaled);
-    const FaultProximity proximity(faults);
+    const BarrierQuery zone(scaled);
+    const BarrierQuery proximity(faults);
 
     std::vector<std::pair<Kernel::Point_3, int>> points;
     const auto add = [&](const Vec3& p, int owner) { points.push_back({{p.x, p.y, p.z}, owner}); };
@@ -156,7 +156,7 @@ inline CrossingCount count_crossings(const std::vector<Fault>& faults, const Box
     for (std::size_t tries = 0; count.background < background && tries < 100 * background; ++tries) {
         Vec3 p = random.in(hull);
         if (tries % 2 == 1 && !faults.empty()) {
-            const Fault& fault = scaled[random.below(scaled.size())];
+            const Barrier& fault = scaled[random.below(scaled.size())];
             const Surface& part = random.below(3) == 0 && !fault.margin.triangles.empty() ? fault.margin : fault.sheet;
             const Triangle& t = part.triangles[random.below(part.triangles.size())];
             double u = random();
@@ -172,7 +172,7 @@ inline CrossingCount count_crossings(const std::vector<Fault>& faults, const Box
             const double away = fault.protection_radius * (random.below(2) == 0 ? 1.0001 : random(1, 1.5));
             p = a + u * (b - a) + v * (c - a) + (random.below(2) == 0 ? away : -away) / length(n) * n;
         }
-        if (hull.contains(p) && zone.protecting_fault(p) < 0) {
+        if (hull.contains(p) && zone.protecting_barrier(p) < 0) {
             add(p, -1);
             ++count.background;
         }

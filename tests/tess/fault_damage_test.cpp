@@ -116,19 +116,19 @@ void use_or_refuse_damaged(int runs, const std::set<int>& only = {}) {
             continue;
         }
         INFO("run " << run);
-        FaultOptions options;
+        BarrierOptions options;
         options.spacing = run % 5 == 0 ? 200 : 40;
-        options.mode = run % 7 == 6 ? FaultMode::exact : FaultMode::paired;
-        const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, spacing, options);
+        options.mode = run % 7 == 6 ? SeedMode::exact : SeedMode::paired;
+        const BarrierPreparation preparation = prepare_barriers(surfaces, extent, {}, spacing, options);
         testing::check_promises(surfaces, preparation, extent, spacing, options);
-        for (const FaultAccount& account : preparation.accounts) {
+        for (const BarrierAccount& account : preparation.accounts) {
             if (account.name != "sound") {
                 ++outcome[account.used];
             }
         }
-        if (!preparation.faults.empty()) {
+        if (!preparation.barriers.empty()) {
             const Box3 around = extent.grown(hull_margin(options, spacing));
-            const auto counted = testing::count_crossings(preparation.faults, around, 1000, 1, 7);
+            const auto counted = testing::count_crossings(preparation.barriers, around, 1000, 1, 7);
             crossing += counted.crossing;
         }
     }

@@ -62,24 +62,24 @@ std::vector<Case> cases() {
 }
 
 /// Each prepared once: several tests look at them.
-const FaultPreparation& prepared(const Case& made_up, FaultMode mode) {
-    static std::map<std::pair<std::string, FaultMode>, FaultPreparation> done;
+const BarrierPreparation& prepared(const Case& made_up, SeedMode mode) {
+    static std::map<std::pair<std::string, SeedMode>, BarrierPreparation> done;
     const auto [entry, fresh] = done.try_emplace({made_up.name, mode});
     if (fresh) {
-        FaultOptions options;
+        BarrierOptions options;
         options.mode = mode;
-        entry->second = prepare_faults(made_up.surfaces, extent, {}, spacing, options);
+        entry->second = prepare_barriers(made_up.surfaces, extent, {}, spacing, options);
     }
     return entry->second;
 }
 
 /// Points on sheets with what is known of them: the fault, its normal, whether the triangle is certified.
 template <class Visit>
-void sample_sheets(const FaultPreparation& preparation, std::size_t count, std::uint64_t seed, const Visit& visit) {
+void sample_sheets(const BarrierPreparation& preparation, std::size_t count, std::uint64_t seed, const Visit& visit) {
     testing::Random random(seed);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto f = static_cast<std::size_t>(random.below(preparation.faults.size()));
-        const Surface& sheet = preparation.faults[f].sheet;
+        const auto f = static_cast<std::size_t>(random.below(preparation.barriers.size()));
+        const Surface& sheet = preparation.barriers[f].sheet;
         const auto t = static_cast<std::size_t>(random.below(sheet.triangles.size()));
         const Vec3 a = sheet.vertices[sheet.triangles[t][0]];
         const Vec3 b = sheet.vertices[sheet.triangles[t][1]];
@@ -97,14 +97,14 @@ void sample_sheets(const FaultPreparation& preparation, std::size_t count, std::
 
 TEST_CASE("F1: in both modes no foreign edge crosses faults of any shape and meeting") {
     for (const Case& made_up : cases()) {
-        for (const FaultMode mode : {FaultMode::paired, FaultMode::exact}) {
-            INFO(made_up.name << (mode == FaultMode::exact ? ", exact" : ", paired"));
-            const FaultPreparation& preparation = prepared(made_up, mode);
-            CHECK(preparation.faults.size() == made_up.surfaces.size());
-            FaultOptions options;
+        for (const SeedMode mode : {SeedMode::paired, SeedMode::exact}) {
+            INFO(made_up.name << (mode == SeedMode::exact ? ", exact" : ", paired"));
+            const BarrierPreparation& preparation = prepared(made_up, mode);
+            CHECK(preparation.barriers.size() == made_up.surfaces.size());
+            BarrierOptions options;
             options.mode = mode;
             const Box3 hull = extent.grown(hull_margin(options, spacing));
-            const auto counted = testing::count_crossings(preparation.faults, hull, 3000, 1, 5);
+            const auto counted = testing::count_crossings(preparation.barriers, hull, 3000, 1, 5);
             CHECK(counted.paired > 50);
             CHECK(counted.crossing == 0);
         }
@@ -113,11 +113,11 @@ TEST_CASE("F1: in both modes no foreign edge crosses faults of any shape and mee
 
 TEST_CASE("F1: without the flakes that seal sharp wedges edges would cross there, and a hole in the cover is filled") {
     const Case wedge{"Y of 20 degrees", branching(20)};
-    FaultOptions options;
-    options.mode = FaultMode::exact;
+    BarrierOptions options;
+    options.mode = SeedMode::exact;
     const Box3 hull = extent.grown(hull_margin(options, spacing));
-    std::vector<Fault> faults = prepared(wedge, FaultMode::exact).faults;
-    for (Fault& fault : faults) {
+    std::vector<Barrier> faults = prepared(wedge, SeedMode::exact).barriers;
+    for (Barrier& fault : faults) {
         std::erase_if(fault.margin.triangles, [&](const Triangle& t) {
             const auto& p = fault.margin.vertices;
             return distance(p[t[0]], p[t[1]]) < 0.01 * spacing && distance(p[t[0]], p[t[2]]) < 0.01 * spacing;
@@ -125,7 +125,7 @@ TEST_CASE("F1: without the flakes that seal sharp wedges edges would cross there
     }
     CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing > 3);
 
-    faults = prepared(cases().front(), FaultMode::paired).faults;
+    faults = prepared(cases().front(), SeedMode::paired).barriers;
     REQUIRE(faults.size() == 1);
     const std::size_t before = faults[0].seeds.size();
     for (std::size_t k = before; k > 0; k -= 2) {
@@ -136,7 +136,7 @@ TEST_CASE("F1: without the flakes that seal sharp wedges edges would cross there
     }
     REQUIRE(faults[0].seeds.size() < before);
     CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing > 3);
-    FaultSeal seal = seal_faults(faults, hull, {});
+    Seal seal = seal_sheets(faults, hull, {});
     CHECK(seal.open.empty());
     CHECK(seal.seeds[0].size() > faults[0].seeds.size());
     faults[0].seeds = seal.seeds[0];
@@ -153,8 +153,8 @@ TEST_CASE("F2: of a million points beside faults none is told to be on the wrong
     std::size_t tested = 0;
     std::size_t wrong = 0;
     for (const Case& made_up : cases()) {
-        const FaultPreparation& preparation = prepared(made_up, FaultMode::exact);
-        const FaultProximity proximity(preparation.faults);
+        const BarrierPreparation& preparation = prepared(made_up, SeedMode::exact);
+        const BarrierQuery proximity(preparation.barriers);
         sample_sheets(preparation, 16000, 7, [&](std::size_t f, const Vec3& x, const Vec3& n, bool) {
             for (const double away : {1e-7, 1e-3, 0.1}) {
                 for (const std::int8_t side : {std::int8_t{1}, std::int8_t{-1}}) {
@@ -172,17 +172,17 @@ TEST_CASE("F2: of a million points beside faults none is told to be on the wrong
 TEST_CASE("F2: on certified triangles the nearest seed tells the side, however near the point") {
     for (const Case& made_up : cases()) {
         INFO(made_up.name);
-        const FaultPreparation& preparation = prepared(made_up, FaultMode::exact);
+        const BarrierPreparation& preparation = prepared(made_up, SeedMode::exact);
         std::vector<Vec3> places;
         std::vector<std::pair<std::size_t, std::int8_t>> what;
-        for (std::size_t f = 0; f < preparation.faults.size(); ++f) {
-            for (const Seed& seed : preparation.faults[f].seeds) {
+        for (std::size_t f = 0; f < preparation.barriers.size(); ++f) {
+            for (const Seed& seed : preparation.barriers[f].seeds) {
                 places.push_back(seed.position);
                 what.emplace_back(f, seed.side);
             }
         }
         const SeedGrid seeds(places, 2 * spacing);
-        const FaultProximity proximity(preparation.faults);
+        const BarrierQuery proximity(preparation.barriers);
         std::size_t wrong = 0;
         std::size_t certified = 0;
         sample_sheets(preparation, 20000, 9, [&](std::size_t f, const Vec3& x, const Vec3& n, bool is_certified) {
@@ -204,9 +204,9 @@ TEST_CASE("F2: on certified triangles the nearest seed tells the side, however n
 TEST_CASE("Nearly all triangles of made-up faults are certified away from junctions and rims") {
     for (const Case& made_up : cases()) {
         INFO(made_up.name);
-        const FaultPreparation& preparation = prepared(made_up, FaultMode::exact);
+        const BarrierPreparation& preparation = prepared(made_up, SeedMode::exact);
         std::map<std::pair<Vec3, Vec3>, int> uses;
-        for (const Fault& fault : preparation.faults) {
+        for (const Barrier& fault : preparation.barriers) {
             for (const Triangle& t : fault.sheet.triangles) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     ++uses[std::minmax(fault.sheet.vertices[t[k]], fault.sheet.vertices[t[(k + 1) % 3]])];

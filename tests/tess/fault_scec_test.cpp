@@ -27,9 +27,9 @@ struct Tally {
 };
 
 /// Whatever becomes of them, the accounts are complete and add up (F4).
-void check_accounts(const std::vector<Surface>& surfaces, const FaultPreparation& preparation, Tally& tally) {
+void check_accounts(const std::vector<Surface>& surfaces, const BarrierPreparation& preparation, Tally& tally) {
     REQUIRE(preparation.accounts.size() == surfaces.size());
-    for (const FaultAccount& account : preparation.accounts) {
+    for (const BarrierAccount& account : preparation.accounts) {
         INFO(account.name << ": " << account.reason);
         const double sum = account.area_used + account.area_trimmed + account.area_outside + account.area_refused;
         REQUIRE(std::abs(sum - account.area_in) <= 1e-6 * account.area_in);
@@ -47,8 +47,8 @@ void check_accounts(const std::vector<Surface>& surfaces, const FaultPreparation
 }
 
 /// The sheets with common points again.
-FaultComplex complex_of(const std::vector<Fault>& faults) {
-    FaultComplex complex;
+SheetComplex complex_of(const std::vector<Barrier>& faults) {
+    SheetComplex complex;
     std::map<Vec3, std::uint32_t> place;
     for (std::uint32_t f = 0; f < faults.size(); ++f) {
         for (Triangle t : faults[f].sheet.triangles) {
@@ -73,7 +73,7 @@ struct Wedges {
 };
 
 /// Where sheets meet.
-Wedges wedges(const FaultComplex& complex) {
+Wedges wedges(const SheetComplex& complex) {
     Wedges result;
     const EdgeTable edges(complex.triangles);
     for (const EdgeTable::Edge& e : edges.edges()) {
@@ -89,8 +89,8 @@ Wedges wedges(const FaultComplex& complex) {
 
 /// Of six points over each of `count` places on sheets, those that are told to be on the wrong side (F2). Where the
 /// sheet bends back between place and point, the point is on the other one.
-std::size_t told_wrong(const std::vector<Fault>& faults, int count) {
-    const FaultProximity proximity(faults);
+std::size_t told_wrong(const std::vector<Barrier>& faults, int count) {
+    const BarrierQuery proximity(faults);
     testing::Random random(5);
     std::size_t wrong = 0;
     for (int i = 0; i < count; ++i) {
@@ -130,10 +130,10 @@ TEST_CASE("F1: each fourth of 97 real faults alone is used or refused, and no fo
     for (std::size_t k = 0; k < surfaces.size(); k += 4) {
         INFO(surfaces[k].name);
         const Box3 extent = box_of({surfaces[k]});
-        const FaultPreparation preparation = prepare_faults({surfaces[k]}, extent, {}, 1500);
+        const BarrierPreparation preparation = prepare_barriers({surfaces[k]}, extent, {}, 1500);
         check_accounts({surfaces[k]}, preparation, tally);
         const Box3 hull = extent.grown(hull_margin({}, 1500));
-        tally.crossing += testing::count_crossings(preparation.faults, hull, 500, 1, 3).crossing;
+        tally.crossing += testing::count_crossings(preparation.barriers, hull, 500, 1, 3).crossing;
     }
     CHECK(tally.crossing == 0);
     CHECK(tally.used >= 23);  // of 25
@@ -147,13 +147,13 @@ TEST_CASE("F4: of 87 real faults with their alternative versions each is used, o
     }
     REQUIRE(surfaces.size() == 87);
     const Box3 extent = box_of(surfaces);
-    const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, extent.diagonal() / 100);
+    const BarrierPreparation preparation = prepare_barriers(surfaces, extent, {}, extent.diagonal() / 100);
     Tally tally;
     check_accounts(surfaces, preparation, tally);
     CHECK(tally.used >= 20);
     CHECK(tally.overlapping >= 15);
     const Box3 hull = extent.grown(hull_margin({}, extent.diagonal() / 100));
-    CHECK(testing::count_crossings(preparation.faults, hull, 2000, 1, 3).crossing == 0);
+    CHECK(testing::count_crossings(preparation.barriers, hull, 2000, 1, 3).crossing == 0);
 }
 
 namespace {
@@ -168,28 +168,28 @@ std::vector<Surface> group(std::vector<Surface> all, std::size_t number) {
 }
 
 /// Prepares the group and counts what crosses. Returns what came of it, a line of a table.
-std::string prepare_group(std::size_t number, FaultMode mode, double spacing) {
+std::string prepare_group(std::size_t number, SeedMode mode, double spacing) {
     const std::vector<Surface> surfaces = group(scec_surfaces(), number);
     const Box3 extent = box_of(surfaces);
-    FaultOptions options;
+    BarrierOptions options;
     options.mode = mode;
-    INFO("group " << number << (mode == FaultMode::paired ? ", paired" : ", exact"));
+    INFO("group " << number << (mode == SeedMode::paired ? ", paired" : ", exact"));
     const std::clock_t begin = std::clock();
-    const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, spacing, options);
+    const BarrierPreparation preparation = prepare_barriers(surfaces, extent, {}, spacing, options);
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     Tally tally;
     check_accounts(surfaces, preparation, tally);
     CHECK(tally.used > 0);
-    CHECK(testing::count_crossings(preparation.faults, extent.grown(hull_margin(options, spacing)), 1000, 1, 3)
+    CHECK(testing::count_crossings(preparation.barriers, extent.grown(hull_margin(options, spacing)), 1000, 1, 3)
               .crossing == 0);
     std::map<std::string, int> reasons;
-    for (const FaultAccount& account : preparation.accounts) {
+    for (const BarrierAccount& account : preparation.accounts) {
         if (!account.used) {
             ++reasons[account.reason.substr(0, account.reason.find_first_of(":'(,"))];
         }
     }
     std::ostringstream line;
-    line << "| " << number << " | " << (mode == FaultMode::paired ? "paired" : "exact") << " | " << surfaces.size()
+    line << "| " << number << " | " << (mode == SeedMode::paired ? "paired" : "exact") << " | " << surfaces.size()
          << " | " << tally.triangles << " | " << seconds << " | " << tally.used << " |";
     for (const auto& [reason, count] : reasons) {
         line << " " << count << " " << reason << ";";
@@ -205,8 +205,8 @@ TEST_CASE("F1, F4: of real neighbours, alternatives among them, some are used an
         WARN("public data scec_cfm is absent");
         return;
     }
-    prepare_group(5, FaultMode::exact, 6000);
-    prepare_group(20, FaultMode::paired, 6000);
+    prepare_group(5, SeedMode::exact, 6000);
+    prepare_group(20, SeedMode::paired, 6000);
 }
 
 TEST_CASE("F1, F4: so it is of thirty groups of 25 to 30 at half the spacing", "[.][long]") {
@@ -215,8 +215,8 @@ TEST_CASE("F1, F4: so it is of thirty groups of 25 to 30 at half the spacing", "
         return;
     }
     for (std::size_t number = 0; number < 30; ++number) {
-        std::cout << prepare_group(number, FaultMode::paired, 3000) << std::flush;
-        std::cout << prepare_group(number, FaultMode::exact, 3000) << std::flush;
+        std::cout << prepare_group(number, SeedMode::paired, 3000) << std::flush;
+        std::cout << prepare_group(number, SeedMode::exact, 3000) << std::flush;
     }
 }
 
@@ -241,24 +241,24 @@ TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most
     }
     REQUIRE(surfaces.size() == 15);
     const Box3 extent = box_of(surfaces);
-    FaultOptions options;
-    options.mode = FaultMode::exact;
-    const FaultPreparation preparation = prepare_faults(surfaces, extent, {}, 1000, options);
+    BarrierOptions options;
+    options.mode = SeedMode::exact;
+    const BarrierPreparation preparation = prepare_barriers(surfaces, extent, {}, 1000, options);
     Tally tally;
     check_accounts(surfaces, preparation, tally);
     CHECK(tally.used == 15);
     CHECK(static_cast<double>(tally.certified) >= 0.9 * static_cast<double>(tally.triangles));
     const Box3 hull = extent.grown(hull_margin(options, 1000));
-    const auto counted = testing::count_crossings(preparation.faults, hull, 20000, 1, 3);
+    const auto counted = testing::count_crossings(preparation.barriers, hull, 20000, 1, 3);
     CHECK(counted.paired > 100'000);
     CHECK(counted.crossing == 0);
 
-    const FaultComplex complex = complex_of(preparation.faults);
+    const SheetComplex complex = complex_of(preparation.barriers);
     CHECK(crossing_triangles(complex).empty());
     const Wedges measured = wedges(complex);
     CHECK(measured.length > 200'000);
     CHECK(measured.sharpest_deg >= 10);
-    CHECK(told_wrong(preparation.faults, 170'000) == 0);
+    CHECK(told_wrong(preparation.barriers, 170'000) == 0);
 }
 
 }  // namespace terratet

@@ -9,6 +9,7 @@
 
 #include "tess/cells.hpp"
 #include "tess/mesh/quality.hpp"
+#include "tess/model/resolution.hpp"
 #include "tess/refine/refine.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
@@ -95,7 +96,7 @@ void for_each_world(const Check& check, std::uint64_t count = world_count) {
 }
 
 /// The largest |Δf| over its limit along an edge, edges across a fault left out.
-double worst_variation(const Case& c, const FaultProximity& proximity, std::size_t cell) {
+double worst_variation(const Case& c, const BarrierQuery& proximity, std::size_t cell) {
     double worst = 0;
     for (std::size_t p = 0; p < c.model.criteria.variation.size(); ++p) {
         const double limit = c.model.criteria.variation[p].df_max;
@@ -111,7 +112,7 @@ double worst_variation(const Case& c, const FaultProximity& proximity, std::size
     return worst;
 }
 
-bool is_good(const Case& c, const FaultProximity& proximity, std::size_t cell) {
+bool is_good(const Case& c, const BarrierQuery& proximity, std::size_t cell) {
     const Criteria& limits = c.model.criteria;
     const CellQuality q = cell_quality(c.corners(cell));
     constexpr double slack = 1 + 1e-9;
@@ -144,9 +145,9 @@ TEST_CASE("R1: inserted vertices never exceed the packing bound, and refinement 
 TEST_CASE("R2: each cell outside the gaps meets every insertion criterion or carries a reason code") {
     std::size_t excused = 0;
     for_each_world([&](const Case& c) {
-        const FaultProximity proximity = model_proximity(c.model);
+        const BarrierQuery proximity = model_proximity(c.model);
         for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
-            if (c.table.fault[cell] >= 0) {
+            if (c.table.barrier[cell] >= 0) {
                 continue;
             }
             const bool good = is_good(c, proximity, cell);
@@ -184,11 +185,11 @@ TEST_CASE("R3: no inserted vertex is nearer than l_min to any other vertex") {
 TEST_CASE("R4: with l_max at least 4 l_min no edge exceeds l_max but near faults and in smooth cells") {
     int promised = 0;
     for_each_world([&](const Case& c) {
-        const FaultProximity proximity = model_proximity(c.model);
+        const BarrierQuery proximity = model_proximity(c.model);
         for (std::size_t cell = 0; cell < c.mesh.cells.size(); ++cell) {
             const Circumsphere sphere = circumsphere(c.corners(cell));
-            if (c.table.fault[cell] < 0 && c.table.reason[cell] != Reason::smooth &&
-                c.model.domain.extent.contains(sphere.center) && proximity.protecting_fault(sphere.center) < 0 &&
+            if (c.table.barrier[cell] < 0 && c.table.reason[cell] != Reason::smooth &&
+                c.model.domain.extent.contains(sphere.center) && proximity.protecting_barrier(sphere.center) < 0 &&
                 c.l_max(cell) >= 4 * c.l_min(sphere.center)) {
                 ++promised;
                 REQUIRE(cell_quality(c.corners(cell)).longest_edge <= c.l_max(cell) * (1 + 1e-9));
@@ -246,7 +247,7 @@ TEST_CASE("R7: refining a finished model again inserts, moves and removes nothin
     for_each_world([](const Case& c) {
         Tessellation again = tessellate(c.model);
         VertexValues values = c.model.vertex_values;
-        const FaultProximity proximity = model_proximity(c.model);
+        const BarrierQuery proximity = model_proximity(c.model);
         const auto report = refine(again, values, c.model.domain, c.model.frame, proximity, c.model.criteria,
                                    c.model.properties, testing::analytic_field()(c.model, proximity));
         REQUIRE(report.inserted + report.moved + report.removed == 0);
@@ -256,7 +257,7 @@ TEST_CASE("R7: refining a finished model again inserts, moves and removes nothin
 TEST_CASE("F1: no edge crosses a fault but between its seeds, in whole models") {
     std::size_t faults = 0;
     for_each_world([&](const Case& c) {
-        faults += c.model.faults.size();
+        faults += c.model.barriers.size();
         REQUIRE(c.report.fault_crossing_edges == 0);
     });
     CHECK(faults > 50);

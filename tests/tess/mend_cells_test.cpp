@@ -15,16 +15,16 @@ using namespace terratet::testing;
 
 namespace {
 
-double six_volumes(const CutMesh& mesh, const CutMesh::Cell& cell) {
+double six_volumes(const MendableMesh& mesh, const MendableMesh::Cell& cell) {
     const auto& [a, b, c, d] = cell.corners;
     const auto& p = mesh.points;
     return dot(cross(p[b] - p[a], p[c] - p[a]), p[d] - p[a]);
 }
 
 /// Two blocks of a lattice that meet at x = 40, its inner points moved at random until many cells are thin.
-CutMesh shaken_lattice(std::uint64_t seed, double by) {
+MendableMesh shaken_lattice(std::uint64_t seed, double by) {
     Random random(seed);
-    CutMesh mesh;
+    MendableMesh mesh;
     mesh.box = {{0, 0, 0}, {80, 80, 80}};
     mesh.least_edge = 2;
     const TetMesh lattice = kuhn_mesh({8, 8, 8}, [&](const Node& n) {
@@ -37,7 +37,7 @@ CutMesh shaken_lattice(std::uint64_t seed, double by) {
     });
     mesh.points = lattice.points;
     for (const Vec3& p : mesh.points) {
-        mesh.hold.push_back(p.x == 40 ? CutMesh::Hold::fixed : CutMesh::Hold::free);
+        mesh.hold.push_back(p.x == 40 ? MendableMesh::Hold::fixed : MendableMesh::Hold::free);
     }
     for (std::uint32_t c = 0; c < lattice.cells.size(); ++c) {
         const auto& v = lattice.cells[c];
@@ -48,9 +48,9 @@ CutMesh shaken_lattice(std::uint64_t seed, double by) {
 }
 
 /// Facets of one cell, or of two that are of different parts.
-std::map<Triangle, int> walls(const CutMesh& mesh) {
+std::map<Triangle, int> walls(const MendableMesh& mesh) {
     std::map<Triangle, std::pair<int, int>> sides;  // cells, sum of parts
-    for (const CutMesh::Cell& cell : mesh.cells) {
+    for (const MendableMesh::Cell& cell : mesh.cells) {
         for (const auto& o : facet_corners) {
             Triangle key{cell.corners[o[0]], cell.corners[o[1]], cell.corners[o[2]]};
             std::ranges::sort(key);
@@ -76,11 +76,11 @@ std::map<Triangle, int> walls(const CutMesh& mesh) {
     return result;
 }
 
-double worst(const CutMesh& mesh) {
-    CutMesh copy = mesh;
-    const CutStars stars(copy);
+double worst(const MendableMesh& mesh) {
+    MendableMesh copy = mesh;
+    const MendableStars stars(copy);
     double result = 1;
-    for (const CutMesh::Cell& cell : mesh.cells) {
+    for (const MendableMesh::Cell& cell : mesh.cells) {
         result = std::min(result, stars.goodness(cell));
     }
     return result;
@@ -90,19 +90,19 @@ double worst(const CutMesh& mesh) {
 
 TEST_CASE("Mending makes the worst cell better, fills the same box, and leaves what parts two blocks as it is") {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        CutMesh mesh = shaken_lattice(seed, 2.8);
-        std::erase_if(mesh.cells, [&](const CutMesh::Cell& cell) { return cell.corners == Corners{}; });
+        MendableMesh mesh = shaken_lattice(seed, 2.8);
+        std::erase_if(mesh.cells, [&](const MendableMesh::Cell& cell) { return cell.corners == Corners{}; });
         const auto before = walls(mesh);
         REQUIRE(std::ranges::all_of(mesh.cells, [&](const auto& cell) { return six_volumes(mesh, cell) > 0; }));
         const double sharpest = worst(mesh);
-        mend_cuts(mesh);
-        std::erase_if(mesh.cells, [](const CutMesh::Cell& cell) { return CutStars::gone(cell); });
+        mend_cells(mesh);
+        std::erase_if(mesh.cells, [](const MendableMesh::Cell& cell) { return MendableStars::gone(cell); });
         CHECK(worst(mesh) > 0.07);  // 15°
         CHECK(worst(mesh) > 2 * sharpest);
         CHECK(walls(mesh) == before);
         double volumes = 0;
         std::array<double, 2> of_part{};
-        for (const CutMesh::Cell& cell : mesh.cells) {
+        for (const MendableMesh::Cell& cell : mesh.cells) {
             REQUIRE(six_volumes(mesh, cell) > 0);
             volumes += six_volumes(mesh, cell) / 6;
             of_part[static_cast<std::size_t>(cell.part)] += six_volumes(mesh, cell) / 6;

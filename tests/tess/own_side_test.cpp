@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tess/cells.hpp"
 #include "tess/barrier/query/own_side.hpp"
+#include "tess/cells.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;
@@ -23,9 +23,9 @@ Kernel::Point_3 point(const Vec3& p) {
 }
 
 /// By CGAL's exact predicates, triangle by triangle.
-bool parted(const std::vector<Fault>& faults, const Vec3& a, const Vec3& b) {
+bool parted(const std::vector<Barrier>& faults, const Vec3& a, const Vec3& b) {
     const Kernel::Segment_3 way(point(a), point(b));
-    for (const Fault& fault : faults) {
+    for (const Barrier& fault : faults) {
         for (const Triangle& t : fault.sheet.triangles) {
             const auto& v = fault.sheet.vertices;
             if (fault.sheet.kind == SurfaceKind::fault &&
@@ -51,17 +51,17 @@ TEST_CASE("E1: in gap cells, those where faults meet included, a value is of ver
     for (const std::uint64_t seed : {2, 12, 22, 32}) {
         const Model model = testing::build_world(testing::random_world(seed)).model;
         INFO("world " << seed);
-        REQUIRE(model.faults.size() == 2);
+        REQUIRE(model.barriers.size() == 2);
         const TetMesh mesh = tessellate(model).mesh();
         const CellTable table = describe_cells(model, mesh);
-        const FaultProximity proximity(model.faults);
-        const OwnSide sides(mesh, table.fault, proximity);
+        const BarrierQuery proximity(model.barriers);
+        const OwnSide sides(mesh, table.barrier, proximity);
         testing::Random random(seed);
         std::size_t without = 0;
         std::size_t tried = 0;
         std::size_t budget = 150;
         for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
-            REQUIRE(sides.concerns(c) == (table.fault[c] >= 0));
+            REQUIRE(sides.concerns(c) == (table.barrier[c] >= 0));
             const bool junction = sides.concerns(c) && at_junction(model, mesh.cells[c]);
             if (!sides.concerns(c) || (!junction && random.below(200) != 0) || (junction && budget == 0)) {
                 continue;
@@ -90,9 +90,9 @@ TEST_CASE("E1: in gap cells, those where faults meet included, a value is of ver
                 REQUIRE(own.weights[k] >= 0);
                 total += own.weights[k];
                 if (own.weights[k] > 0) {
-                    REQUIRE_FALSE(parted(model.faults, p, mesh.points[own.vertices[k]]));
+                    REQUIRE_FALSE(parted(model.barriers, p, mesh.points[own.vertices[k]]));
                 }
-                mixed_before += junction && parted(model.faults, p, mesh.points[mesh.cells[c][k]]) ? 1 : 0;
+                mixed_before += junction && parted(model.barriers, p, mesh.points[mesh.cells[c][k]]) ? 1 : 0;
             }
             REQUIRE(total == Approx(1));
         }

@@ -22,20 +22,20 @@ using testing::wavy;
 const Box3 extent{{0, 0, 0}, {400, 400, 400}};
 constexpr double spacing = 20;
 
-FaultPreparation prepared(const std::vector<Surface>& surfaces, const FaultOptions& options = {}) {
-    return prepare_faults(surfaces, extent, {}, spacing, options);
+BarrierPreparation prepared(const std::vector<Surface>& surfaces, const BarrierOptions& options = {}) {
+    return prepare_barriers(surfaces, extent, {}, spacing, options);
 }
 
-void check_promises(const std::vector<Surface>& surfaces, const FaultPreparation& preparation,
-                    const FaultOptions& options = {}) {
+void check_promises(const std::vector<Surface>& surfaces, const BarrierPreparation& preparation,
+                    const BarrierOptions& options = {}) {
     testing::check_promises(surfaces, preparation, extent, spacing, options);
 }
 
-Box3 hull(const FaultOptions& options = {}) {
+Box3 hull(const BarrierOptions& options = {}) {
     return extent.grown(hull_margin(options, spacing));
 }
 
-double sheet_area(const Fault& fault) {
+double sheet_area(const Barrier& fault) {
     double sum = 0;
     for (const Triangle& t : fault.sheet.triangles) {
         sum += 0.5 * length(cross(fault.sheet.vertices[t[1]] - fault.sheet.vertices[t[0]],
@@ -44,7 +44,7 @@ double sheet_area(const Fault& fault) {
     return sum;
 }
 
-void check_covering(const Fault& fault, std::uint64_t random_seed) {
+void check_covering(const Barrier& fault, std::uint64_t random_seed) {
     testing::Random random(random_seed);
     for (const Surface* part : {&fault.sheet, &fault.margin}) {
         for (int i = 0; i < 300 && !part->triangles.empty(); ++i) {
@@ -64,17 +64,17 @@ void check_covering(const Fault& fault, std::uint64_t random_seed) {
 
 /// F1 at the protection radius; returns the crossings at 0.9 of it.
 std::size_t check_f1(const std::vector<Surface>& surfaces, std::size_t background = 8000) {
-    const FaultPreparation preparation = prepared(surfaces);
+    const BarrierPreparation preparation = prepared(surfaces);
     check_promises(surfaces, preparation);
-    REQUIRE_FALSE(preparation.faults.empty());
-    if (preparation.faults.size() == 1) {  // beside others a margin has gaps
-        check_covering(preparation.faults[0], 3);
+    REQUIRE_FALSE(preparation.barriers.empty());
+    if (preparation.barriers.size() == 1) {  // beside others a margin has gaps
+        check_covering(preparation.barriers[0], 3);
     }
-    const auto counted = testing::count_crossings(preparation.faults, hull(), background, 1, 5);
+    const auto counted = testing::count_crossings(preparation.barriers, hull(), background, 1, 5);
     CHECK(counted.background == background);
     CHECK(counted.paired > 50);
     CHECK(counted.crossing == 0);
-    return testing::count_crossings(preparation.faults, hull(), background, 0.9, 5).crossing;
+    return testing::count_crossings(preparation.barriers, hull(), background, 0.9, 5).crossing;
 }
 
 Surface l_shaped() {
@@ -129,12 +129,12 @@ TEST_CASE("F1: no edge but their own crosses nearly parallel faults, or faults t
                                            rectangle("b", {200, 200, 200}, {0, 300, 0}, {100, 0, 290}),
                                            dipping("c", {100, 300, 200}, 120, 70, 150, 150)};
     check_f1(crossing);
-    const FaultPreparation preparation = prepared(crossing);
-    REQUIRE(preparation.faults.size() == 3);
-    const FaultProximity proximity(preparation.faults);
+    const BarrierPreparation preparation = prepared(crossing);
+    REQUIRE(preparation.barriers.size() == 3);
+    const BarrierQuery proximity(preparation.barriers);
     CHECK(proximity.meet(0, 1));
     CHECK(proximity.meet(1, 0));
-    for (const FaultAccount& account : preparation.accounts) {
+    for (const BarrierAccount& account : preparation.accounts) {
         CHECK(account.area_trimmed == 0);
     }
 }
@@ -160,10 +160,10 @@ TEST_CASE("F4: the areas of accounts add up on a hundred random sets of faults, 
             surfaces.push_back(dipping("f" + std::to_string(k), center, random(0, 360), random(5, 90), random(5, 400),
                                        random(5, 400)));
         }
-        FaultOptions options;
+        BarrierOptions options;
         options.spacing = 40;
         options.width = random(2, 40);
-        check_promises(surfaces, prepare_faults(surfaces, extent, {}, spacing, options), options);
+        check_promises(surfaces, prepare_barriers(surfaces, extent, {}, spacing, options), options);
     }
 }
 
@@ -178,9 +178,9 @@ TEST_CASE("A grid whose spacing suits keeps its points: 15 × 31 at 20 m stay th
         }
     }
     const Box3 tall{{0, 0, -400}, {400, 400, 400}};
-    const FaultPreparation preparation = prepare_faults({twenty}, tall, {}, 20);
-    REQUIRE(preparation.faults.size() == 1);
-    const Fault& fault = preparation.faults[0];
+    const BarrierPreparation preparation = prepare_barriers({twenty}, tall, {}, 20);
+    REQUIRE(preparation.barriers.size() == 1);
+    const Barrier& fault = preparation.barriers[0];
     CHECK(preparation.accounts[0].deviation_max < 1e-9);
     std::size_t found = 0;
     std::size_t within = 0;
@@ -203,7 +203,7 @@ TEST_CASE("The result depends neither on the order of surfaces nor on that of ve
     std::vector<Surface> surfaces = {dipping("a", {200, 200, 200}, 30, 60, 300, 300),
                                      rectangle("b", {200, 200, 200}, {0, 300, 0}, {100, 0, 290}), wavy()};
     surfaces[2].vertices[100].z += 3;
-    const FaultPreparation first = prepared(surfaces);
+    const BarrierPreparation first = prepared(surfaces);
     testing::Random random(29);
     std::swap(surfaces[0], surfaces[2]);
     for (Surface& surface : surfaces) {
@@ -227,8 +227,8 @@ TEST_CASE("The result depends neither on the order of surfaces nor on that of ve
             std::swap(surface.triangles[i], surface.triangles[random.below(i + 1)]);
         }
     }
-    const FaultPreparation second = prepared(surfaces);
-    CHECK(first.faults == second.faults);
+    const BarrierPreparation second = prepared(surfaces);
+    CHECK(first.barriers == second.barriers);
     REQUIRE(first.accounts.size() == second.accounts.size());
     for (std::size_t i = 0; i < first.accounts.size(); ++i) {
         CHECK(first.accounts[i].name == second.accounts[i].name);
@@ -238,9 +238,9 @@ TEST_CASE("The result depends neither on the order of surfaces nor on that of ve
 }
 
 TEST_CASE("Faults go on beyond the extent, and stop before the hull box") {
-    const FaultPreparation preparation = prepared({rectangle("a", {200, 200, 200}, {192, 0, 0}, {0, 300, 0})});
-    REQUIRE(preparation.faults.size() == 1);  // its rims lie 8 from two faces, within snap, and beyond the other two
-    const Fault& fault = preparation.faults[0];
+    const BarrierPreparation preparation = prepared({rectangle("a", {200, 200, 200}, {192, 0, 0}, {0, 300, 0})});
+    REQUIRE(preparation.barriers.size() == 1);  // its rims lie 8 from two faces, within snap, and beyond the other two
+    const Barrier& fault = preparation.barriers[0];
     CHECK(sheet_area(fault) == Approx(400 * 400).epsilon(1e-9));
     Box3 margin = bounding_box(fault.margin.vertices);
     CHECK(margin.lo.x < -fault.protection_radius);
@@ -252,7 +252,7 @@ TEST_CASE("Faults go on beyond the extent, and stop before the hull box") {
 
 TEST_CASE("What cannot be used is refused with its reason") {
     const auto reason = [](const std::vector<Surface>& surfaces, std::size_t which = 0) {
-        const FaultPreparation preparation = prepared(surfaces);
+        const BarrierPreparation preparation = prepared(surfaces);
         check_promises(surfaces, preparation);
         return preparation.accounts[which].reason;
     };
@@ -282,16 +282,16 @@ TEST_CASE("A fault that bends too much for the spacing gets a finer one") {
         const double angle = (u - 0.5) * 3;
         return Vec3{200 + 45 * std::sin(angle), 400 * v, 200 + 45 * std::cos(angle)};
     })};
-    const FaultPreparation preparation = prepared(surfaces);
+    const BarrierPreparation preparation = prepared(surfaces);
     check_promises(surfaces, preparation);
-    REQUIRE(preparation.faults.size() == 1);
+    REQUIRE(preparation.barriers.size() == 1);
     CHECK(preparation.accounts[0].finest_spacing < spacing);
-    CHECK(testing::count_crossings(preparation.faults, hull(), 8000, 1, 7).crossing == 0);
+    CHECK(testing::count_crossings(preparation.barriers, hull(), 8000, 1, 7).crossing == 0);
 }
 
 TEST_CASE("Contradictory fault options and too many seeds are errors") {
     const std::vector<Surface> surfaces = {rectangle("a", {200, 200, 200}, {300, 0, 0}, {0, 300, 0})};
-    FaultOptions options;
+    BarrierOptions options;
     options.width = 30;
     CHECK_THROWS_AS(prepared(surfaces, options), UsageError);
     options.width = -1;
@@ -309,16 +309,16 @@ TEST_CASE("Contradictory fault options and too many seeds are errors") {
 TEST_CASE("Seeds lie where a stored model puts them back: true coordinates are doubles") {
     Frame frame;
     frame.origin = {512000, 6700032, 0};
-    const FaultPreparation preparation =
-        prepare_faults({dipping("tilted", {200, 200, 200}, 30, 60, 600, 600)}, extent, frame, spacing);
-    REQUIRE(preparation.faults.size() == 1);
-    for (const Seed& seed : preparation.faults[0].seeds) {
+    const BarrierPreparation preparation =
+        prepare_barriers({dipping("tilted", {200, 200, 200}, 30, 60, 600, 600)}, extent, frame, spacing);
+    REQUIRE(preparation.barriers.size() == 1);
+    for (const Seed& seed : preparation.barriers[0].seeds) {
         REQUIRE(frame.snapped(seed.position) == seed.position);
     }
-    for (const Vec3& p : preparation.faults[0].sheet.vertices) {
+    for (const Vec3& p : preparation.barriers[0].sheet.vertices) {
         REQUIRE(frame.snapped(p) == p);
     }
-    CHECK(testing::count_crossings(preparation.faults, hull(), 8000, 1, 7).crossing == 0);
+    CHECK(testing::count_crossings(preparation.barriers, hull(), 8000, 1, 7).crossing == 0);
 }
 
 }  // namespace terratet

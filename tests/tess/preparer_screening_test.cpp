@@ -27,7 +27,7 @@ Surface cloud(int count, std::uint64_t seed, const Map& map) {
 }
 
 struct Outcome {
-    FaultPreparation preparation;
+    BarrierPreparation preparation;
     std::set<std::string> stages;
 };
 
@@ -35,7 +35,7 @@ Outcome prepared(const Surface& surface, double l_min) {
     Box3 extent = bounding_box(surface.vertices);
     Outcome outcome;
     outcome.preparation =
-        prepare_faults({surface}, extent.grown(l_min), {}, l_min, {}, [&](std::string_view stage, double) {
+        prepare_barriers({surface}, extent.grown(l_min), {}, l_min, {}, [&](std::string_view stage, double) {
             outcome.stages.emplace(stage);
             return true;
         });
@@ -57,8 +57,8 @@ Surface wall(const std::string& name, double x, double half_width = 3000) {
 
 const Box3 around_walls{{-4000, -4000, -4000}, {4000, 4000, 4000}};
 
-FaultPreparation walls(double apart, const FaultOptions& options) {
-    return prepare_faults({wall("F1", 0), wall("F2", apart, 2900)}, around_walls, {}, 1000, options);
+BarrierPreparation walls(double apart, const BarrierOptions& options) {
+    return prepare_barriers({wall("F1", 0), wall("F2", apart, 2900)}, around_walls, {}, 1000, options);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ TEST_CASE("Points that are no graph over their plane are refused before anything
     for (const Surface& surface :
          {cloud(1500, 1, box), cloud(1500, 2, folded), cloud(1500, 3, spiky), cloud(600, 4, tube)}) {
         const Outcome outcome = prepared(surface, 100);
-        const FaultAccount& account = outcome.preparation.accounts.at(0);
+        const BarrierAccount& account = outcome.preparation.accounts.at(0);
         CHECK_FALSE(account.used);
         CHECK_THAT(account.reason, Contains("is no surface but a tangle"));
         CHECK(account.area_refused + account.area_outside == Approx(account.area_in));
@@ -104,27 +104,27 @@ TEST_CASE("Rough, bent and sparse points are no tangle") {
 }
 
 TEST_CASE("Walls that nowhere meet are two faults: the spacing is to blame, and the one that keeps both is named") {
-    const FaultPreparation coarse = walls(500, {});
-    REQUIRE(coarse.faults.size() == 1);
+    const BarrierPreparation coarse = walls(500, {});
+    REQUIRE(coarse.barriers.size() == 1);
     const std::string& reason = coarse.accounts.at(1).reason;
     CHECK_THAT(reason, Contains("runs alongside fault 'F1' at a distance of 500"));
     CHECK_THAT(reason, Contains("--fault-spacing of 660 keeps both"));
-    FaultOptions finer;
+    BarrierOptions finer;
     finer.spacing = 660;
-    CHECK(walls(500, finer).faults.size() == 2);
-    CHECK(walls(900, {}).faults.size() == 2);
+    CHECK(walls(500, finer).barriers.size() == 2);
+    CHECK(walls(900, {}).barriers.size() == 2);
 }
 
 TEST_CASE("The spacing that separates faults is found for any distance, and keeps both") {
     for (const double apart : {50.0, 120.0, 333.0, 590.0}) {
         INFO(apart);
         const std::vector<Surface> surfaces = {wall("F1", 0), wall("F2", apart, 2900)};
-        FaultOptions options;
+        BarrierOptions options;
         options.spacing = separating_spacing(surfaces, around_walls, {}, 1000, {}, {});
         CHECK(options.spacing < 1000);
         CHECK(options.spacing > apart);
         if (apart > 100) {  // a spacing of 66 m takes a while
-            CHECK(walls(apart, options).faults.size() == 2);
+            CHECK(walls(apart, options).barriers.size() == 2);
         }
     }
     CHECK(separating_spacing({wall("F1", 0), wall("F2", 900)}, around_walls, {}, 1000, {}, {}) == 1000);
@@ -134,8 +134,8 @@ TEST_CASE("The spacing that separates faults is found for any distance, and keep
 TEST_CASE("Surfaces that run together and meet are versions of one fault, at any spacing") {
     const std::vector<Surface> surfaces = {wall("F1", 0),
                                            testing::planar_fault("F2", {20, 0, 0}, 1, 90, 2900, 2900, 20000)};
-    const FaultPreparation preparation = prepare_faults(surfaces, around_walls, {}, 1000);
-    REQUIRE(preparation.faults.size() == 1);
+    const BarrierPreparation preparation = prepare_barriers(surfaces, around_walls, {}, 1000);
+    REQUIRE(preparation.barriers.size() == 1);
     CHECK_THAT(preparation.accounts.at(1).reason, Contains("alternative versions of one fault"));
     CHECK(separating_spacing(surfaces, around_walls, {}, 1000, {}, {}) == 1000);
 }
@@ -143,8 +143,8 @@ TEST_CASE("Surfaces that run together and meet are versions of one fault, at any
 TEST_CASE("Fault preparation stops at any of its reports of progress") {
     const std::vector<Surface> surfaces = {wall("F1", 0), wall("F2", 900),
                                            testing::planar_fault("G", {0, 0, 0}, 60, 60, 4000, 4000, 500)};
-    for (const FaultMode mode : {FaultMode::paired, FaultMode::exact}) {
-        FaultOptions options;
+    for (const SeedMode mode : {SeedMode::paired, SeedMode::exact}) {
+        BarrierOptions options;
         options.mode = mode;
         std::map<std::string, int> reports;
         std::map<std::string, double> last;
@@ -156,7 +156,7 @@ TEST_CASE("Fault preparation stops at any of its reports of progress") {
             ++reports[std::string(stage)];
             return true;
         };
-        CHECK(prepare_faults(surfaces, around_walls, {}, 1000, options, count).faults.size() == 3);
+        CHECK(prepare_barriers(surfaces, around_walls, {}, 1000, options, count).barriers.size() == 3);
         int all = 0;
         for (const auto& [stage, times] : reports) {
             INFO(stage << ": " << times);
@@ -167,7 +167,7 @@ TEST_CASE("Fault preparation stops at any of its reports of progress") {
         for (int stop = 0; stop < all; stop += std::max(1, all / 8)) {
             int reported = 0;
             const auto cancel = [&](std::string_view, double) { return reported++ < stop; };
-            CHECK_THROWS_AS(prepare_faults(surfaces, around_walls, {}, 1000, options, cancel), Cancelled);
+            CHECK_THROWS_AS(prepare_barriers(surfaces, around_walls, {}, 1000, options, cancel), Cancelled);
             CHECK(reported == stop + 1);
         }
     }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "tess/barrier/query/protection_radii.hpp"
 #include "tess/barrier/prepare/prepare.hpp"
-#include "tess/base/tri_mesh.hpp"
+#include "tess/barrier/query/protection_radii.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/base/tri_mesh.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/fault_cases.hpp"
 #include "tests/tess/worlds.hpp"
@@ -27,17 +27,17 @@ std::vector<Vec3> along_a_hole() {
     return samples;
 }
 
-FaultPreparation prepared(const std::vector<Surface>& surfaces, bool refine) {
-    FaultOptions options;
+BarrierPreparation prepared(const std::vector<Surface>& surfaces, bool refine) {
+    BarrierOptions options;
     options.spacing = spacing;
     options.refine = refine;
     const std::vector<Vec3> samples = along_a_hole();
-    return prepare_faults(surfaces, extent, {}, spacing, options, {}, samples);
+    return prepare_barriers(surfaces, extent, {}, spacing, options, {}, samples);
 }
 
-std::ptrdiff_t near(const std::vector<Fault>& faults) {
-    const FaultProximity proximity(faults);
-    return std::ranges::count_if(along_a_hole(), [&](const Vec3& p) { return proximity.protecting_fault(p) >= 0; });
+std::ptrdiff_t near(const std::vector<Barrier>& faults) {
+    const BarrierQuery proximity(faults);
+    return std::ranges::count_if(along_a_hole(), [&](const Vec3& p) { return proximity.protecting_barrier(p) >= 0; });
 }
 
 }  // namespace
@@ -45,30 +45,30 @@ std::ptrdiff_t near(const std::vector<Fault>& faults) {
 TEST_CASE("With finer triangles where samples come near, fewer of these are too near") {
     for (const auto& surface : {testing::dipping("plane", {200, 200, 200}, 30, 55, 600, 600), testing::wavy()}) {
         INFO(surface.name);
-        const FaultPreparation plain = prepared({surface}, false);
-        const FaultPreparation refined = prepared({surface}, true);
-        REQUIRE(refined.faults.size() == 1);
-        CHECK(near(plain.faults) > 10);
-        CHECK(2 * near(refined.faults) < near(plain.faults));
+        const BarrierPreparation plain = prepared({surface}, false);
+        const BarrierPreparation refined = prepared({surface}, true);
+        REQUIRE(refined.barriers.size() == 1);
+        CHECK(near(plain.barriers) > 10);
+        CHECK(2 * near(refined.barriers) < near(plain.barriers));
         CHECK(refined.accounts[0].finest_spacing < 5);
         CHECK(refined.accounts[0].finest_spacing >= spacing / 8);
-        CHECK(refined.faults[0].seeds.size() < 3 * plain.faults[0].seeds.size());
+        CHECK(refined.barriers[0].seeds.size() < 3 * plain.barriers[0].seeds.size());
     }
 }
 
 TEST_CASE("F1: no edge crosses a fault between vertices that keep the smaller distances of its smaller triangles") {
     for (const auto& surface : {testing::dipping("plane", {200, 200, 200}, 30, 55, 600, 600), testing::wavy()}) {
         INFO(surface.name);
-        const FaultPreparation refined = prepared({surface}, true);
-        const FaultProximity proximity(refined.faults);
-        const Surface& sheet = refined.faults[0].sheet;
-        const std::vector<double> radii = protection_radii(refined.faults, 0);
-        CHECK(*std::ranges::min_element(radii) < 0.3 * refined.faults[0].protection_radius);
+        const BarrierPreparation refined = prepared({surface}, true);
+        const BarrierQuery proximity(refined.barriers);
+        const Surface& sheet = refined.barriers[0].sheet;
+        const std::vector<double> radii = protection_radii(refined.barriers, 0);
+        CHECK(*std::ranges::min_element(radii) < 0.3 * refined.barriers[0].protection_radius);
         std::vector<Vertex> vertices;
         const auto add = [&](const Vec3& p, Role role) {
             vertices.push_back({vertices.size(), p, role, role == Role::seed ? 0 : -1, 0});
         };
-        for (const Seed& seed : refined.faults[0].seeds) {
+        for (const Seed& seed : refined.barriers[0].seeds) {
             add(seed.position, Role::seed);
         }
         testing::Random random(5);
@@ -82,7 +82,7 @@ TEST_CASE("F1: no edge crosses a fault between vertices that keep the smaller di
             const Vec3 normal =
                 unit(cross(sheet.vertices[b] - sheet.vertices[a], sheet.vertices[c] - sheet.vertices[a]));
             const Vec3 p = on + (random.below(2) == 0 ? 1.0 : -1.0) * radii[t] * random(1, 1.2) * normal;
-            if (extent.contains(p) && proximity.protecting_fault(p) < 0) {
+            if (extent.contains(p) && proximity.protecting_barrier(p) < 0) {
                 add(p, Role::sample);
             }
         }
@@ -105,24 +105,24 @@ TEST_CASE("F1: no edge crosses a fault between vertices that keep the smaller di
 
 TEST_CASE("Near another fault's seeds, and without finer triangles, the fault's own protection radius stays in force") {
     const auto plane = testing::dipping("plane", {200, 200, 200}, 30, 55, 600, 600);
-    const FaultPreparation plain = prepared({plane}, false);
-    for (const double radius : protection_radii(plain.faults, 0)) {
-        CHECK(radius == plain.faults[0].protection_radius);
+    const BarrierPreparation plain = prepared({plane}, false);
+    for (const double radius : protection_radii(plain.barriers, 0)) {
+        CHECK(radius == plain.barriers[0].protection_radius);
     }
     const auto other = testing::dipping("other", {200, 200, 200}, 120, 80, 600, 600);
-    const FaultPreparation both = prepared({plane, other}, true);
-    REQUIRE(both.faults.size() == 2);
+    const BarrierPreparation both = prepared({plane, other}, true);
+    REQUIRE(both.barriers.size() == 2);
     for (const std::size_t f : {0U, 1U}) {
-        const std::vector<double> radii = protection_radii(both.faults, f);
-        const Surface& sheet = both.faults[f].sheet;
+        const std::vector<double> radii = protection_radii(both.barriers, f);
+        const Surface& sheet = both.barriers[f].sheet;
         for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
             const Vec3 middle = (sheet.vertices[sheet.triangles[t][0]] + sheet.vertices[sheet.triangles[t][1]] +
                                  sheet.vertices[sheet.triangles[t][2]]) /
                                 3;
-            if (std::ranges::any_of(both.faults[1 - f].seeds, [&](const Seed& seed) {
+            if (std::ranges::any_of(both.barriers[1 - f].seeds, [&](const Seed& seed) {
                     return distance(seed.position, middle) < 1.4 * spacing;
                 })) {
-                CHECK(radii[t] == both.faults[f].protection_radius);
+                CHECK(radii[t] == both.barriers[f].protection_radius);
             }
         }
     }
@@ -134,7 +134,7 @@ TEST_CASE("All guarantees hold in worlds whose faults are refined for samples") 
         testing::World world = testing::random_world(seed);
         INFO(world.description);
         const testing::Built plain = testing::build_world(world);
-        world.options.faults.refine = true;
+        world.options.barriers.refine = true;
         const testing::Built built = testing::build_world(world);
         fewer += built.report.density.near_faults.size() < plain.report.density.near_faults.size() ? 1 : 0;
         CHECK(built.report.density.near_faults.size() <= plain.report.density.near_faults.size());

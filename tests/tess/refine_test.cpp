@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "tess/cells.hpp"
-#include "tess/model/density_edition.hpp"
 #include "tess/domain.hpp"
 #include "tess/error.hpp"
-#include "tess/progress.hpp"
 #include "tess/mesh/quality.hpp"
+#include "tess/model/density_edition.hpp"
+#include "tess/progress.hpp"
 #include "tess/verify.hpp"
 #include "tests/tess/worlds.hpp"
 
@@ -106,8 +106,8 @@ TEST_CASE("Each step of a build that takes long can be stopped: it asks on its w
         samples.positions.push_back(p);
         vertices.push_back({i, p, Role::sample, static_cast<std::int32_t>(i), 0});
     }
-    const std::vector<Fault> no_faults;
-    const FaultProximity proximity(no_faults);
+    const std::vector<Barrier> no_faults;
+    const BarrierQuery proximity(no_faults);
     Criteria criteria;
     criteria.l_min = 10;
     const Domain nowhere;
@@ -181,7 +181,7 @@ TEST_CASE("A fault block with a finer resolution gets shorter edges, up to its f
             const auto& v = mesh.cells[c];
             const CellPoints p{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
             const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-            const bool fine = !model.faults.empty() && !FaultProximity(model.faults).crosses_any(middle, place);
+            const bool fine = !model.barriers.empty() && !BarrierQuery(model.barriers).crosses_any(middle, place);
             ++cells[static_cast<std::size_t>(fine)];
             above[static_cast<std::size_t>(fine)] += cell_quality(p).longest_edge > 40;
         }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Real faults: the SCEC Community Fault Model's western Transverse Ranges, Salton and Elsinore surfaces, 97 TSurf
+/// Real faults: the SCEC Community Barrier Model's western Transverse Ranges, Salton and Elsinore surfaces, 97 TSurf
 /// files.
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "tess/build.hpp"
+#include "tess/edit/vertex_demand.hpp"
 #include "tess/error.hpp"
 #include "tess/site/site_box.hpp"
-#include "tess/edit/vertex_demand.hpp"
 #include "tests/tess/worlds.hpp"
 
 using namespace terratet;
@@ -142,7 +142,7 @@ TEST_CASE("More vertices than allowed are refused before any is made, naming the
     options.criteria = {};
     options.criteria.l_min = 100;
     site.surfaces = {testing::planar_fault("F", {500500, 6000500, -200}, 30, 70, 400, 200, 40)};
-    options.faults.spacing = 0.01;
+    options.barriers.spacing = 0.01;
     CHECK_THROWS_WITH(built(site, options, model), Catch::Contains("--fault-spacing of"));
 }
 
@@ -154,6 +154,6 @@ TEST_CASE("What is known of the vertices beforehand is never more than comes of 
         world.options.refine.max_vertices = plain.model.vertices.size() + plain.report.refine.removed + 20;  // tried
         CHECK_NOTHROW(testing::build_world(world));
         const auto seeds = std::ranges::count(plain.model.vertices, Role::seed, &Vertex::role);
-        CHECK(vertex_demand(plain.model, world.options.faults).seeds <= static_cast<double>(seeds));
+        CHECK(vertex_demand(plain.model, world.options.barriers).seeds <= static_cast<double>(seeds));
     }
 }

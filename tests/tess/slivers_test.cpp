@@ -26,7 +26,7 @@ struct Count {
 };
 
 /// Of the cells between four seeds in the extent that fill no gap and whose balls may stay empty.
-Count count_slivers(const std::vector<Fault>& faults, const Box3& within) {
+Count count_slivers(const std::vector<Barrier>& faults, const Box3& within) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Base = CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>;
     using Delaunay = CGAL::Delaunay_triangulation_3<
@@ -39,7 +39,7 @@ Count count_slivers(const std::vector<Fault>& faults, const Box3& within) {
             seeds.emplace_back(f, seed);
         }
     }
-    const FaultProximity proximity(faults);
+    const BarrierQuery proximity(faults);
     const auto fills_gap = [&](const std::array<std::size_t, 4>& v, const CellPoints& p) {
         const auto differs = [&](std::size_t i) { return seeds[i].second.side != seeds[v[0]].second.side; };
         if (std::ranges::all_of(v, [&](std::size_t i) { return seeds[i].first == seeds[v[0]].first; }) &&
@@ -77,10 +77,10 @@ Count count_slivers(const std::vector<Fault>& faults, const Box3& within) {
     return count;
 }
 
-Count count_of(const std::vector<Surface>& surfaces, FaultMode mode) {
-    FaultOptions options;
+Count count_of(const std::vector<Surface>& surfaces, SeedMode mode) {
+    BarrierOptions options;
     options.mode = mode;
-    return count_slivers(prepare_faults(surfaces, extent, {}, spacing, options).faults, extent);
+    return count_slivers(prepare_barriers(surfaces, extent, {}, spacing, options).barriers, extent);
 }
 
 Surface dome(double height) {
@@ -99,12 +99,12 @@ std::vector<Surface> crossing() {
 TEST_CASE("In exact mode the seeds round a point make no slivers, flat, all but flat, or bent") {
     for (const double height : {0.0, 1e-5, 1e-2, 1.0, 10.0, 60.0}) {
         INFO("dome of " << height << " m");
-        const Count count = count_of({dome(height)}, FaultMode::exact);
+        const Count count = count_of({dome(height)}, SeedMode::exact);
         CHECK(count.cells > 0);
         CHECK(count.slivers <= 12);
         CHECK(count.enclosed == 0);
     }
-    CHECK(count_of({testing::dipping("dipping", {200, 200, 200}, 37, 52, 500, 500)}, FaultMode::exact).enclosed == 0);
+    CHECK(count_of({testing::dipping("dipping", {200, 200, 200}, 37, 52, 500, 500)}, SeedMode::exact).enclosed == 0);
 }
 
 TEST_CASE("In paired mode seeds make no slivers, where faults cross and bend neither") {
@@ -112,7 +112,7 @@ TEST_CASE("In paired mode seeds make no slivers, where faults cross and bend nei
     for (const std::vector<Surface>& surfaces :
          {std::vector{dome(60)}, std::vector{testing::wavy()}, std::vector{testing::cylinder(160)}, crossing()}) {
         INFO(surfaces[0].name);
-        const Count count = count_of(surfaces, FaultMode::paired);
+        const Count count = count_of(surfaces, SeedMode::paired);
         CHECK(count.slivers == 0);
         cells += count.cells;
     }

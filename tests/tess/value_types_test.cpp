@@ -5,8 +5,8 @@
 #include "tess/criteria.hpp"
 #include "tess/error.hpp"
 #include "tess/frame.hpp"
-#include "tess/property.hpp"
 #include "tess/mesh/quality.hpp"
+#include "tess/property.hpp"
 #include "tests/support.hpp"
 
 using namespace terratet;

@@ -178,7 +178,7 @@ World random_world(std::uint64_t seed) {
 }
 
 ValueSourceFactory analytic_field() {
-    return [](const Model& model, const FaultProximity&) -> ValueSource {
+    return [](const Model& model, const BarrierQuery&) -> ValueSource {
         return [properties = model.properties](std::span<const ValueQuery> queries) {
             ValueBatch batch{std::vector<std::vector<double>>(properties.size()),
                              std::vector<double>(queries.size(), 0)};

@@ -5,8 +5,8 @@
 #include "tess/error.hpp"
 #include "tools/options/export_options.hpp"
 #include "tools/options/model_options.hpp"
-#include "tools/run/outputs.hpp"
 #include "tools/options/site_options.hpp"
+#include "tools/run/outputs.hpp"
 
 using namespace terratet;
 using namespace terratet::tools;
@@ -36,7 +36,7 @@ TEST_CASE("Lengths are read in the unit of the model, whatever unit they carry")
     CHECK(options.criteria.l_min == 20);
     CHECK(options.criteria.l_max == Approx(100));
     CHECK(options.pad == Approx(10));
-    CHECK(options.faults.spacing == Approx(10));
+    CHECK(options.barriers.spacing == Approx(10));
 }
 
 TEST_CASE("What is not given is left to the floor below") {
@@ -44,8 +44,8 @@ TEST_CASE("What is not given is left to the floor below") {
     CHECK(options.criteria == Criteria{});
     CHECK(options.pad < 0);
     CHECK(options.extent.empty());
-    CHECK(options.faults.spacing == 0);
-    CHECK(options.faults.width == 0);
+    CHECK(options.barriers.spacing == 0);
+    CHECK(options.barriers.width == 0);
     CHECK(options.estimator.starts_with("natural"));
     CHECK_NOTHROW(check_model_arguments({}));
 }

@@ -9,14 +9,14 @@
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/model_options.hpp"
-#include "tools/run/open_model.hpp"
-#include "tools/run/outputs.hpp"
 #include "tools/options/printable.hpp"
-#include "tools/run/process.hpp"
-#include "tools/run/progress_display.hpp"
 #include "tools/options/run_options.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/report/validation.hpp"
+#include "tools/run/open_model.hpp"
+#include "tools/run/outputs.hpp"
+#include "tools/run/process.hpp"
+#include "tools/run/progress_display.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {
@@ -27,12 +27,12 @@ bool is_fault(const Surface& surface) {
 }
 
 /// For estimating no surface need be prepared: it is the barrier. Horizons are where they are hard.
-std::vector<Fault> as_barriers(const Site& site) {
+std::vector<Barrier> as_barriers(const Site& site) {
     const bool hard = std::ranges::any_of(site.properties, &Property::hard_horizons);
-    std::vector<Fault> faults;
+    std::vector<Barrier> faults;
     for (const Surface& surface : site.surfaces) {
         if (is_fault(surface) || (hard && surface.kind == SurfaceKind::horizon)) {
-            Fault& fault = faults.emplace_back();
+            Barrier& fault = faults.emplace_back();
             fault.name = surface.name;
             fault.sheet = surface;
         }
@@ -79,9 +79,9 @@ class Validate final : public Command {
                 set_horizons(horizon_, model);  // of a model, another than it was built with
             }
             if (models_.empty()) {
-                model.faults = as_barriers(model);
+                model.barriers = as_barriers(model);
             }
-            const FaultProximity faults = model_proximity(model);
+            const BarrierQuery faults = model_proximity(model);
             CrossValidationOptions options;
             options.max_folds = folds_;
             all = validate_all(model, faults, specs, options, display.callback());
@@ -121,15 +121,15 @@ class Validate final : public Command {
         for (const auto& record : diagnostics.rejected) {
             rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
         }
-        const Json report{
-            {"terratet", version},
-            {"input",
-             {{"boreholes", model.boreholes.size()},
-              {"samples", model.samples.size()},
-              {"faults", models_.empty() ? std::ranges::count_if(model.surfaces, is_fault) : std::ssize(model.faults)},
-              {"rejected", rejected},
-              {"notes", diagnostics.notes}}},
-            {"properties", validation_json(model, all)}};
+        const Json report{{"terratet", version},
+                          {"input",
+                           {{"boreholes", model.boreholes.size()},
+                            {"samples", model.samples.size()},
+                            {"faults", models_.empty() ? std::ranges::count_if(model.surfaces, is_fault)
+                                                       : std::ssize(model.barriers)},
+                            {"rejected", rejected},
+                            {"notes", diagnostics.notes}}},
+                          {"properties", validation_json(model, all)}};
         const std::string text = json_text(report);
         if (run_.report == "-") {
             print(text);

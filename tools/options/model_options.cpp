@@ -208,8 +208,8 @@ void validate_given(Criteria criteria) {
     validate(criteria);
 }
 
-FaultMode fault_mode(const std::string& text) {
-    return choose<FaultMode>("--fault-mode", text, {{"paired", FaultMode::paired}, {"exact", FaultMode::exact}});
+SeedMode fault_mode(const std::string& text) {
+    return choose<SeedMode>("--fault-mode", text, {{"paired", SeedMode::paired}, {"exact", SeedMode::exact}});
 }
 
 /// From sites to outputs, all told; refinement alone takes half of it.
@@ -379,12 +379,12 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
     validate_given(options.criteria);
     options.density = density_mode(a.density);
-    options.faults.spacing = fault_spacing(a, unit);
+    options.barriers.spacing = fault_spacing(a, unit);
     options.separate_faults = a.fault_spacing == automatic;
-    options.faults.width = positive_length("--fault-width", a.fault_width, unit);
-    options.faults.snap = positive_length("--fault-snap", a.fault_snap, unit);
-    options.faults.mode = fault_mode(a.fault_mode);
-    options.faults.refine = a.fault_refine;
+    options.barriers.width = positive_length("--fault-width", a.fault_width, unit);
+    options.barriers.snap = positive_length("--fault-snap", a.fault_snap, unit);
+    options.barriers.mode = fault_mode(a.fault_mode);
+    options.barriers.refine = a.fault_refine;
     options.refine.max_vertices =
         a.max_vertices == fitting_vertices ? memory_limit() / bytes_per_vertex : a.max_vertices;
     options.estimator = parse_estimator(a.estimator).to_string();

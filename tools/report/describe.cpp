@@ -134,7 +134,7 @@ Json describe_model(const Model& model, const std::vector<JournalEntry>& journal
         json["properties"].push_back(property_json(model, p));
     }
     json["faults"] = Json::array();
-    for (const auto& fault : model.faults) {
+    for (const auto& fault : model.barriers) {
         json["faults"].push_back(
             {{"name", fault.name}, {"seeds", fault.seeds.size()}, {"spacing", fault.spacing}, {"width", fault.width}});
     }

@@ -10,8 +10,8 @@
 #include "io/base/output_file.hpp"
 #include "tess/barrier_query.hpp"
 #include "tess/mesh/quality.hpp"
-#include "tools/report/calibration_json.hpp"
 #include "tools/options/printable.hpp"
+#include "tools/report/calibration_json.hpp"
 #include "tools/run/process.hpp"
 #include "tools/version.hpp"
 
@@ -49,7 +49,7 @@ Json input_json(const BuildRecord& build, const Model& model) {
             {"notes", build.diagnostics.notes}};
 }
 
-Json faults_json(const std::vector<FaultAccount>& accounts) {
+Json faults_json(const std::vector<BarrierAccount>& accounts) {
     Json faults = Json::array();
     for (const auto& account : accounts) {
         faults.push_back({{"name", account.name},
@@ -79,7 +79,7 @@ Json faults_json(const std::vector<FaultAccount>& accounts) {
 /// The samples that left the tessellation for faults, each with the fault.
 Json near_faults_json(const BuildReport& report, const Model& model) {
     Json list = Json::array();
-    const FaultProximity faults(model.faults);
+    const BarrierQuery faults(model.barriers);
     for (const std::uint32_t i : report.density.near_faults) {
         const Vec3& p = model.samples.positions[i];
         const Vec3 at = model.frame.to_world(p);
@@ -89,8 +89,8 @@ Json near_faults_json(const BuildReport& report, const Model& model) {
             sample["depth"] = model.samples.depth[i];
         }
         sample["position"] = {at.x, at.y, at.z};
-        if (const std::int32_t fault = faults.protecting_fault(p); fault >= 0) {
-            sample["fault"] = model.faults[static_cast<std::size_t>(fault)].name;
+        if (const std::int32_t fault = faults.protecting_barrier(p); fault >= 0) {
+            sample["fault"] = model.barriers[static_cast<std::size_t>(fault)].name;
         }
         list.push_back(std::move(sample));
     }
@@ -262,7 +262,7 @@ std::string report_text(const RunRecord& record) {
         }
         report["defaults"] = defaults;
         report["preprocess"] = preprocess_json(build.report, record.model->model());
-        report["faults"] = faults_json(build.report.faults);
+        report["faults"] = faults_json(build.report.barriers);
         report["initial"] = initial_json(build.report.initial);
         report["refine"] = refine_json(build.report.refine);
         report["final"] = final_json(record);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "tools/options/printable.hpp"
-#include "tools/report/report.hpp"
 #include "tools/options/text.hpp"
+#include "tools/report/report.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -90,7 +90,7 @@ std::string build_lines(const BuildRecord& build, const Model& model) {
                                     grouped(report.density.kept.size()), counted(build.counts.samples, "sample"),
                                     grouped(report.density.deleted), grouped(report.density.near_faults.size()),
                                     grouped(report.outside_extent), grouped(report.coincident)));
-    for (const auto& fault : report.faults) {
+    for (const auto& fault : report.barriers) {
         out += line("Fault", fault.used ? fmt::format("{}: {}{}", fault.name, counted(fault.seeds, "seed"),
                                                       fault.reason.empty() ? "" : "; " + fault.reason)
                                         : fmt::format("{}: not used: {}", fault.name, fault.reason));

@@ -10,8 +10,8 @@
 
 #include "interp/estimator_spec.hpp"
 #include "interp/kriging/fitted_variogram.hpp"
-#include "tools/report/calibration_json.hpp"
 #include "tools/options/text.hpp"
+#include "tools/report/calibration_json.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -143,7 +143,7 @@ Chart variogram_chart(const Property& property, const std::string& where, const 
 
 }  // namespace
 
-std::vector<PropertyValidation> validate_all(const Model& model, const FaultProximity& faults,
+std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQuery& faults,
                                              const std::vector<EstimatorSpec>& specs,
                                              const CrossValidationOptions& options, const Progress& progress) {
     std::vector<PropertyValidation> all;

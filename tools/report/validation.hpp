@@ -9,9 +9,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "interp/plan/cross_validation.hpp"
 #include "interp/estimator_spec.hpp"
 #include "interp/kriging/variogram_fit.hpp"
+#include "interp/plan/cross_validation.hpp"
 #include "io/write/write_svg.hpp"
 #include "tess/progress.hpp"
 
@@ -26,7 +26,7 @@ struct PropertyValidation {
 };
 
 /// Of all properties with samples. \pre specs are valid
-std::vector<PropertyValidation> validate_all(const Model& model, const FaultProximity& faults,
+std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQuery& faults,
                                              const std::vector<EstimatorSpec>& specs,
                                              const CrossValidationOptions& options, const Progress& progress);
 

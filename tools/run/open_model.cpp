@@ -19,7 +19,7 @@ Option accept_edited_option(bool& accept_edited) {
 }
 
 std::vector<Verdict> verdicts_on(const Model& model, const Progress& progress) {
-    const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of, const FaultProximity& faults) {
+    const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of, const BarrierQuery& faults) {
         return make_model_source(of, faults, plan);
     };
     return verify(model, factory, progress);

@@ -35,11 +35,11 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
                                                   hi.x, hi.y, hi.z));
     }
     add(model.frame.z_scale == 1 || z_scale_given, "z-scale", model.frame.z_scale);
-    if (!model.faults.empty()) {
-        const double spacing = model.fault_options.spacing > 0 ? model.fault_options.spacing : model.criteria.l_min;
+    if (!model.barriers.empty()) {
+        const double spacing = model.barrier_options.spacing > 0 ? model.barrier_options.spacing : model.criteria.l_min;
         add(!a.fault_spacing.empty() && a.fault_spacing != "auto", "fault-spacing", spacing);
         add(!a.fault_width.empty(), "fault-width",
-            model.fault_options.width > 0 ? model.fault_options.width : spacing / 4);
+            model.barrier_options.width > 0 ? model.barrier_options.width : spacing / 4);
     }
     return chosen;
 }

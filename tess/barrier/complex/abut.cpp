@@ -27,7 +27,7 @@ Kernel::Point_3 point(const Vec3& p) {
 }
 
 /// Outward directions of the rim's points, tangent to the sheet.
-std::map<std::uint32_t, Vec3> outward_directions(const FaultMesh& mesh) {
+std::map<std::uint32_t, Vec3> outward_directions(const TriMesh& mesh) {
     std::map<std::uint32_t, Vec3> result;
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (const RimEdge& e : rim_edges(mesh)) {
@@ -91,7 +91,7 @@ class Neighbourhood {
 };
 
 /// Points of triangles that turned too far or meet others of the sheet.
-std::set<std::uint32_t> folded_points(const FaultMesh& mesh, const std::vector<Vec3>& before) {
+std::set<std::uint32_t> folded_points(const TriMesh& mesh, const std::vector<Vec3>& before) {
     std::set<std::uint32_t> folded;
     for (const Triangle& t : mesh.triangles) {
         const Vec3 now = unit(area_vector(corners(mesh, t)));
@@ -100,7 +100,7 @@ std::set<std::uint32_t> folded_points(const FaultMesh& mesh, const std::vector<V
             folded.insert(t.begin(), t.end());
         }
     }
-    FaultComplex alone{mesh.points, mesh.triangles, {}};
+    SheetComplex alone{mesh.points, mesh.triangles, {}};
     alone.sheet.assign(mesh.triangles.size(), 0);
     for (const auto& pair : crossing_triangles(alone)) {
         for (const std::uint32_t t : pair) {
@@ -120,7 +120,7 @@ std::size_t extend_to_neighbours(std::vector<Sheet>& sheets, double tolerance, c
     std::size_t total = 0;
     for (std::uint32_t i = 0; i < sheets.size(); ++i) {
         ask(poll);
-        FaultMesh& mesh = sheets[i].mesh;
+        TriMesh& mesh = sheets[i].mesh;
         const std::vector<Vec3> before = mesh.points;
         std::set<std::uint32_t> moved;
         for (const auto& [v, direction] : outward_directions(mesh)) {

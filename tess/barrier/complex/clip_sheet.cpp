@@ -31,7 +31,7 @@ class Half {
 };
 
 template <class Place>
-CutMesh cut(const FaultMesh& mesh, std::span<const double> level, const Place& place) {
+MendableMesh cut(const TriMesh& mesh, std::span<const double> level, const Place& place) {
     std::vector<Vec3> points = mesh.points;
     std::unordered_map<std::uint64_t, std::uint32_t> crossing_of;
     // One point an edge, whichever triangle asks first. Almost at an end is at the end: no needles of rounding's
@@ -51,7 +51,7 @@ CutMesh cut(const FaultMesh& mesh, std::span<const double> level, const Place& p
         }
         return entry->second;
     };
-    CutMesh result;
+    MendableMesh result;
     Half above(result.above.triangles);
     Half below(result.below.triangles);
     for (const Triangle& t : mesh.triangles) {
@@ -82,11 +82,11 @@ CutMesh cut(const FaultMesh& mesh, std::span<const double> level, const Place& p
 
 }  // namespace
 
-CutMesh cut_at_zero(const FaultMesh& mesh, std::span<const double> level) {
+MendableMesh cut_at_zero(const TriMesh& mesh, std::span<const double> level) {
     return cut(mesh, level, [](const Vec3& p) { return p; });
 }
 
-CutMesh cut_at_plane(const FaultMesh& mesh, int axis, double at) {
+MendableMesh cut_at_plane(const TriMesh& mesh, int axis, double at) {
     std::vector<double> level;
     level.reserve(mesh.points.size());
     for (const Vec3& p : mesh.points) {
@@ -98,12 +98,12 @@ CutMesh cut_at_plane(const FaultMesh& mesh, int axis, double at) {
     });
 }
 
-BoxCut cut_to_box(FaultMesh mesh, const Box3& box) {
+BoxCut cut_to_box(TriMesh mesh, const Box3& box) {
     BoxCut result;
     for (int axis = 0; axis < 3; ++axis) {
-        CutMesh at_low = cut_at_plane(mesh, axis, box.lo[axis]);
+        MendableMesh at_low = cut_at_plane(mesh, axis, box.lo[axis]);
         append(result.outside, at_low.below);
-        CutMesh at_high = cut_at_plane(at_low.above, axis, box.hi[axis]);
+        MendableMesh at_high = cut_at_plane(at_low.above, axis, box.hi[axis]);
         append(result.outside, at_high.above);
         mesh = std::move(at_high.below);
     }

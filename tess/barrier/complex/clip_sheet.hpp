@@ -10,23 +10,23 @@
 
 namespace terratet {
 
-struct CutMesh {
-    FaultMesh above;  ///< where the level is positive
-    FaultMesh below;
+struct MendableMesh {
+    TriMesh above;  ///< where the level is positive
+    TriMesh below;
 };
 
 /// Cuts along the zero line of the function that is linear on each triangle and has the given value at each point. Each
 /// half keeps its triangles' sense and stays connected: neighbours share the new points on their edge.
-CutMesh cut_at_zero(const FaultMesh& mesh, std::span<const double> level);
+MendableMesh cut_at_zero(const TriMesh& mesh, std::span<const double> level);
 
 /// The same for the plane x[axis] = at; above is where x[axis] is larger. New points lie exactly on the plane.
-CutMesh cut_at_plane(const FaultMesh& mesh, int axis, double at);
+MendableMesh cut_at_plane(const TriMesh& mesh, int axis, double at);
 
 /// What lies inside a box and what outside.
 struct BoxCut {
-    FaultMesh inside;
-    FaultMesh outside;
+    TriMesh inside;
+    TriMesh outside;
 };
-BoxCut cut_to_box(FaultMesh mesh, const Box3& box);
+BoxCut cut_to_box(TriMesh mesh, const Box3& box);
 
 }  // namespace terratet

@@ -22,7 +22,7 @@ class ComplexEditor {
   public:
     /// Patches are those of the complex as given; they keep their numbers. `bounds`, by sheet: those the model ends at;
     /// none when empty.
-    ComplexEditor(const FaultComplex& complex, const Patches& numbering, const SizeField& sizes,
+    ComplexEditor(const SheetComplex& complex, const Patches& numbering, const SizeField& sizes,
                   std::span<const char> bounds = {});
 
     /// What a point is bound to: ascending numbers of pieces of the bounds, each connected within its sheet. Its points
@@ -103,7 +103,7 @@ class ComplexEditor {
     /// sheets that lean against it join it.
     void join_bounds();
 
-    [[nodiscard]] FaultComplex result() const;
+    [[nodiscard]] SheetComplex result() const;
 
   private:
     std::uint32_t add_point(const Vec3& p);

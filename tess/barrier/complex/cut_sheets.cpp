@@ -206,10 +206,10 @@ class Weld {
             complex_.sheet.push_back(surface);
         }
     }
-    FaultComplex take() { return std::move(complex_); }
+    SheetComplex take() { return std::move(complex_); }
 
   private:
-    FaultComplex complex_;
+    SheetComplex complex_;
     std::map<Vec3, std::uint32_t> place_;
     std::set<Triangle> present_;
 };
@@ -234,7 +234,7 @@ bool near_junctions(const Patch& patch, const Vec3& p, double tolerance) {
     });
 }
 
-bool is_stub(const FaultComplex& complex, const Patch& patch, double tolerance) {
+bool is_stub(const SheetComplex& complex, const Patch& patch, double tolerance) {
     if (!patch.has_rim || patch.junctions.empty()) {
         return false;
     }
@@ -247,7 +247,7 @@ bool is_stub(const FaultComplex& complex, const Patch& patch, double tolerance) 
 }
 
 /// One round; returns how many patches went.
-std::size_t drop_stubs(FaultComplex& complex, double tolerance, std::vector<double>& trimmed) {
+std::size_t drop_stubs(SheetComplex& complex, double tolerance, std::vector<double>& trimmed) {
     const EdgeTable edges(complex.triangles);
     const Patches numbering = patches(complex, edges);
     std::vector<Patch> all(numbering.count);

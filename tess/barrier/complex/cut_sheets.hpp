@@ -15,12 +15,12 @@ namespace terratet {
 
 /// A connected manifold piece of a surface.
 struct Sheet {
-    FaultMesh mesh;
+    TriMesh mesh;
     std::uint32_t surface = 0;  ///< the surface it is of, in the caller's numbering: its number in the complex
 };
 
 struct CutSheets {
-    FaultComplex complex;                  ///< points rounded to double; coincident ones are one
+    SheetComplex complex;                  ///< points rounded to double; coincident ones are one
     std::vector<double> trimmed;           ///< area of stubs and coplanar overlaps dropped, by surface
     std::optional<std::uint32_t> tangled;  ///< a surface that meets others too often to be cut; then no complex is made
 };

@@ -39,7 +39,7 @@ Vec3 step_across(const Face& face, const Vec3& p, const Vec3& normal, double rea
     return (reach - face.beyond(p)) / squared_length(way) * way;
 }
 
-std::vector<RimEdge> edges_to_extend(const FaultMesh& mesh, const std::vector<RimEdge>& rim,
+std::vector<RimEdge> edges_to_extend(const TriMesh& mesh, const std::vector<RimEdge>& rim,
                                      const std::vector<Vec3>& normals, const Face& face, double snap, double reach) {
     std::vector<RimEdge> chosen;
     const auto in_reach = [&](std::uint32_t v) {
@@ -66,7 +66,7 @@ std::vector<RimEdge> edges_to_extend(const FaultMesh& mesh, const std::vector<Ri
     return chosen;
 }
 
-void extend_across(FaultMesh& mesh, const Face& face, double snap, double reach, double spacing) {
+void extend_across(TriMesh& mesh, const Face& face, double snap, double reach, double spacing) {
     const std::vector<RimEdge> rim = rim_edges(mesh);
     const std::vector<Vec3> normals = rim_normals(mesh, rim);
     const std::vector<RimEdge> chosen = edges_to_extend(mesh, rim, normals, face, snap, reach);
@@ -130,7 +130,7 @@ Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
 
 /// A fan about `center` from direction `first`, turning by `angle` about `normal`; circumscribed, so that it holds the
 /// whole sector of the given width.
-void add_fan(FaultMesh& mesh, const Vec3& center, const Vec3& first, const Vec3& normal, double angle, double width) {
+void add_fan(TriMesh& mesh, const Vec3& center, const Vec3& first, const Vec3& normal, double angle, double width) {
     const int steps = std::max(1, static_cast<int>(std::ceil(angle / (std::numbers::pi / 6))));
     const double reach = width / std::cos(0.5 * angle / steps);
     const auto hub = static_cast<std::uint32_t>(mesh.points.size());
@@ -146,7 +146,7 @@ void add_fan(FaultMesh& mesh, const Vec3& center, const Vec3& first, const Vec3&
 
 }  // namespace
 
-std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>& rim) {
+std::vector<Vec3> rim_normals(const TriMesh& mesh, const std::vector<RimEdge>& rim) {
     std::vector<Vec3> normals = vertex_normals(mesh);
     for (int round = 0; round < 3; ++round) {
         std::vector<Vec3> sum = normals;
@@ -161,9 +161,9 @@ std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>&
     return normals;
 }
 
-FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap, double reach, double spacing) {
+TriMesh extended_across(const TriMesh& part, const Box3& extent, double snap, double reach, double spacing) {
     const Box3 limit = extent.grown(reach);
-    FaultMesh mesh = cut_to_box(part, limit).inside;
+    TriMesh mesh = cut_to_box(part, limit).inside;
     for (int axis = 0; axis < 3; ++axis) {
         for (const Face& face : {Face{axis, -1, extent.lo[axis]}, Face{axis, 1, extent.hi[axis]}}) {
             extend_across(mesh, face, snap, reach, spacing);
@@ -172,10 +172,10 @@ FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap
     return cut_to_box(std::move(mesh), limit).inside;
 }
 
-FaultMesh skirt(const FaultMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
-                const Box3& limit) {
+TriMesh skirt(const TriMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
+              const Box3& limit) {
     const std::vector<Vec3> normals = vertex_normals(part);
-    FaultMesh strips;
+    TriMesh strips;
     std::map<std::uint32_t, std::vector<Vec3>> arriving;  // outward directions of rim edges, by the point they end in
     std::map<std::uint32_t, std::vector<Vec3>> leaving;
     for (const RimEdge& e : rim) {

@@ -10,19 +10,19 @@
 namespace terratet {
 
 /// Unit normals at the points, evened out along the rim, so that neighbouring directions of extension agree.
-std::vector<Vec3> rim_normals(const FaultMesh& mesh, const std::vector<RimEdge>& rim);
+std::vector<Vec3> rim_normals(const TriMesh& mesh, const std::vector<RimEdge>& rim);
 
 /// Continues the surface across the extent's faces: rims beyond a face, or nearer than `snap` to it from inside, grow
 /// in the tangent direction that heads for the face until they are `reach` beyond it, in rows no farther apart than
 /// `spacing`. Rims nearly parallel to their way there, surfaces nearly parallel to the face (below 10°), and strips
 /// that would fold are left as they are. Returns the mesh with the strips, cut to the extent grown by `reach`.
-FaultMesh extended_across(const FaultMesh& part, const Box3& extent, double snap, double reach, double spacing);
+TriMesh extended_across(const TriMesh& part, const Box3& extent, double snap, double reach, double spacing);
 
 /// Strips of the given width along the given rim edges of the part, in the surface's tangent planes, with fans at
 /// convex corners: with the surface they hold everything tangentially nearer than `width` to it. Rims on the faces of
 /// `limit`, where the surface was cut, get none, nor do rims farther than `width` from the extent. Triangles overlap;
 /// each carries its normal in its sense. Cut to `limit`.
-FaultMesh skirt(const FaultMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
-                const Box3& limit);
+TriMesh skirt(const TriMesh& part, const std::vector<RimEdge>& rim, double width, const Box3& extent,
+              const Box3& limit);
 
 }  // namespace terratet

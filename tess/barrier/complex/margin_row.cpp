@@ -19,7 +19,7 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
 /// The row of one surface, on work points of its own until it is known what stays.
 class Row {
   public:
-    Row(const FaultComplex& complex, const FaultMesh& sheet, std::uint32_t surface)
+    Row(const SheetComplex& complex, const TriMesh& sheet, std::uint32_t surface)
         : complex_(complex), sheet_(sheet), surface_(surface), normals_(vertex_normals(sheet)) {}
 
     void build(const std::vector<RimEdge>& rim) {
@@ -57,7 +57,7 @@ class Row {
     }
 
     /// Appends what is far enough from other surfaces.
-    void append_to(FaultComplex& result, const FaultWall& wall, double clear, const Frame& frame) const {
+    void append_to(SheetComplex& result, const SheetWall& wall, double clear, const Frame& frame) const {
         constexpr std::uint32_t unused = ~std::uint32_t{0};
         std::vector<std::uint32_t> place(apexes_.size(), unused);
         const auto count = static_cast<std::uint32_t>(complex_.points.size());
@@ -156,8 +156,8 @@ class Row {
         }
     }
 
-    const FaultComplex& complex_;
-    const FaultMesh& sheet_;
+    const SheetComplex& complex_;
+    const TriMesh& sheet_;
     std::uint32_t surface_;
     std::vector<Vec3> normals_;
     std::vector<Vec3> apexes_;
@@ -171,10 +171,10 @@ bool near(const Vec3& p, const Box3& extent, double width) {
 
 }  // namespace
 
-FaultComplex with_margin_row(const FaultComplex& complex, const EdgeTable& edges, const FaultWall& wall, double clear,
+SheetComplex with_margin_row(const SheetComplex& complex, const EdgeTable& edges, const SheetWall& wall, double clear,
                              const Box3& extent, double width, const Frame& frame) {
-    FaultComplex result = complex;
-    std::map<std::uint32_t, FaultMesh> sheets;
+    SheetComplex result = complex;
+    std::map<std::uint32_t, TriMesh> sheets;
     for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
         sheets[complex.sheet[t]].triangles.push_back(complex.triangles[t]);
     }

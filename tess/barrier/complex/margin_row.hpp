@@ -14,7 +14,7 @@ namespace terratet {
 /// edge, and between neighbouring ones as many as the angle asks for. Places nearer than `clear` edge lengths to
 /// another surface, or hidden by one, get none, nor do rims farther than `width` from the extent. Points are snapped to
 /// the frame.
-FaultComplex with_margin_row(const FaultComplex& complex, const EdgeTable& edges, const FaultWall& wall, double clear,
+SheetComplex with_margin_row(const SheetComplex& complex, const EdgeTable& edges, const SheetWall& wall, double clear,
                              const Box3& extent, double width, const Frame& frame);
 
 }  // namespace terratet

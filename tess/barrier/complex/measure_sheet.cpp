@@ -22,7 +22,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 /// A mesh to measure distances from. Not movable: the tree points into the triangles.
 class Measured {
   public:
-    explicit Measured(const FaultMesh& mesh) {
+    explicit Measured(const TriMesh& mesh) {
         const auto point = [&](std::uint32_t v) {
             return Kernel::Point_3(mesh.points[v].x, mesh.points[v].y, mesh.points[v].z);
         };
@@ -59,7 +59,7 @@ class Measured {
     Tree tree_;
 };
 
-void add_distances(const FaultMesh& from, const Measured& to, const Box3& where, std::vector<double>& distances) {
+void add_distances(const TriMesh& from, const Measured& to, const Box3& where, std::vector<double>& distances) {
     const auto add = [&](const Vec3& p) {
         if (where.contains(p)) {
             distances.push_back(to.nearest(p).distance);
@@ -88,7 +88,7 @@ double widest_angle(const TriangleCorners& t) {
 
 }  // namespace
 
-bool suits(const FaultMesh& mesh, double spacing, double widest) {
+bool suits(const TriMesh& mesh, double spacing, double widest) {
     const double wanted = spacing * std::numbers::sqrt2 / 2 * (1 + 1e-6);
     double total = 0;
     double unsuitable = 0;
@@ -106,7 +106,7 @@ bool suits(const FaultMesh& mesh, double spacing, double widest) {
     return unsuitable <= 0.02 * total && static_cast<double>(mesh.points.size()) <= 1.6 * needed;
 }
 
-Deviation deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where) {
+Deviation deviation(const TriMesh& a, const TriMesh& b, const Box3& where) {
     const Measured first(a);
     const Measured second(b);
     std::vector<double> distances;
@@ -125,15 +125,15 @@ Deviation deviation(const FaultMesh& a, const FaultMesh& b, const Box3& where) {
 }
 
 struct Alongside::Impl {
-    explicit Impl(const FaultMesh& mesh) : box(bounding_box(mesh.points)), target(mesh) {}
+    explicit Impl(const TriMesh& mesh) : box(bounding_box(mesh.points)), target(mesh) {}
     Box3 box;
     Measured target;
 };
 
-Alongside::Alongside(const FaultMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+Alongside::Alongside(const TriMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
 Alongside::~Alongside() = default;
 
-double Alongside::share_of(const FaultMesh& other, const Box3& where, double near) const {
+double Alongside::share_of(const TriMesh& other, const Box3& where, double near) const {
     if (impl_->target.empty() || !overlap(impl_->box.grown(near), bounding_box(other.points))) {
         return 0;
     }
@@ -166,7 +166,7 @@ double Alongside::share_of(const FaultMesh& other, const Box3& where, double nea
     return total > 0 ? shared / total : 0;
 }
 
-double Alongside::distance_of(const FaultMesh& other, const Box3& where, double share, double most) const {
+double Alongside::distance_of(const TriMesh& other, const Box3& where, double share, double most) const {
     double nearer = 0;
     double far = most;
     while (far - nearer > 1e-3 * most) {
@@ -176,7 +176,7 @@ double Alongside::distance_of(const FaultMesh& other, const Box3& where, double 
     return far;
 }
 
-bool touch(const FaultMesh& a, const FaultMesh& b) {
+bool touch(const TriMesh& a, const TriMesh& b) {
     if (!overlap(bounding_box(a.points), bounding_box(b.points))) {
         return false;
     }

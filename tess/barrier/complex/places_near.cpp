@@ -14,7 +14,7 @@ constexpr double approach = 0.85;   ///< size of a triangle over the distance th
 
 }  // namespace
 
-std::vector<WantedSize> places_near(std::span<const Vec3> samples, const FaultComplex& complex, double spacing) {
+std::vector<WantedSize> places_near(std::span<const Vec3> samples, const SheetComplex& complex, double spacing) {
     std::vector<WantedSize> places;
     const double reach = spacing / approach;
     std::vector<TriangleCorners> triangles;

@@ -14,6 +14,6 @@ namespace terratet {
 
 /// Where the complex wants triangles how small, down to an eighth of the spacing, that each sample nearer to it than
 /// r_p may stay.
-std::vector<WantedSize> places_near(std::span<const Vec3> samples, const FaultComplex& complex, double spacing);
+std::vector<WantedSize> places_near(std::span<const Vec3> samples, const SheetComplex& complex, double spacing);
 
 }  // namespace terratet

@@ -70,9 +70,9 @@ using LineTarget = Target<Kernel::Segment_3, CGAL::AABB_segment_primitive>;
 
 }  // namespace
 
-class FaultRemesher::Impl {
+class SheetRemesher::Impl {
   public:
-    Impl(const FaultComplex& complex, const SizeField& sizes, double snap, Collapse later, std::span<const char> bounds)
+    Impl(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later, std::span<const char> bounds)
         : numbering_(patches(complex, EdgeTable(complex.triangles))),
           editor_(complex, numbering_, sizes, bounds),
           mender_(editor_),
@@ -122,7 +122,7 @@ class FaultRemesher::Impl {
   private:
     using Ties = ComplexEditor::Ties;
 
-    void set_targets(const FaultComplex& complex) {
+    void set_targets(const SheetComplex& complex) {
         for (std::uint32_t k = 0; k < numbering_.count; ++k) {
             surfaces_.push_back(std::make_unique<PatchTarget>());
         }
@@ -148,7 +148,7 @@ class FaultRemesher::Impl {
 
     /// The sharpest turns of rims and junctions first, and none near another, or a ragged rim would stay as fine as it
     /// came.
-    void keep_corners(const FaultComplex& complex) {
+    void keep_corners(const SheetComplex& complex) {
         std::vector<std::pair<double, std::uint32_t>> turns;
         for (std::uint32_t v = 0; v < complex.points.size(); ++v) {
             const auto classified = editor_.classify(v);
@@ -329,7 +329,7 @@ class FaultRemesher::Impl {
                 smooth(0.3);
             }
         }
-        for (int opening = 0; best.faults > 0 && opening < openings; ++opening) {
+        for (int opening = 0; best.barriers > 0 && opening < openings; ++opening) {
             mender_.open_wedges();
             assess(best);
         }
@@ -338,7 +338,7 @@ class FaultRemesher::Impl {
 
     struct Best {
         Result result;
-        std::size_t faults = std::numeric_limits<std::size_t>::max();
+        std::size_t barriers = std::numeric_limits<std::size_t>::max();
         bool is_latest = false;  ///< or are its triangles others than the editor's?
     };
 
@@ -347,12 +347,12 @@ class FaultRemesher::Impl {
         ask(poll_);
         mender_.drop_flaps();
         editor_.join_bounds();
-        FaultComplex now = editor_.result();
+        SheetComplex now = editor_.result();
         restore_sense(now);  // of triangles that coincided one stayed, whichever way it was turned
         auto crossings = crossing_triangles(now);
         const Trouble sharp = sharp_wedges(now);
         const Trouble flat = thin_triangles(now, sizes_);
-        const std::size_t faults = 1000 * crossings.size() + sharp.count + flat.count;
+        const std::size_t barriers = 1000 * crossings.size() + sharp.count + flat.count;
         std::vector<Vec3> places = sharp.places;
         places.insert(places.end(), flat.places.begin(), flat.places.end());
         for (const auto& pair : crossings) {
@@ -361,13 +361,13 @@ class FaultRemesher::Impl {
                 places.insert(places.end(), c.begin(), c.end());
             }
         }
-        best.is_latest = faults < best.faults;
+        best.is_latest = barriers < best.barriers;
         if (best.is_latest) {
-            best.faults = faults;
+            best.barriers = barriers;
             best.result = {std::move(now), std::move(crossings)};
         }
         wake_about(std::move(places));
-        return faults > 0;
+        return barriers > 0;
     }
 
     /// What is wrong with a result, and the points it is wrong about.
@@ -376,7 +376,7 @@ class FaultRemesher::Impl {
         std::vector<Vec3> places;
     };
 
-    static Trouble thin_triangles(const FaultComplex& complex, const SizeField& sizes) {
+    static Trouble thin_triangles(const SheetComplex& complex, const SizeField& sizes) {
         Trouble trouble;
         for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
             const TriangleCorners c = corners(complex, t);
@@ -389,7 +389,7 @@ class FaultRemesher::Impl {
         return trouble;
     }
 
-    static Trouble sharp_wedges(const FaultComplex& complex) {
+    static Trouble sharp_wedges(const SheetComplex& complex) {
         Trouble trouble;
         const EdgeTable edges(complex.triangles);
         for (const EdgeTable::Edge& e : edges.edges()) {
@@ -429,17 +429,17 @@ class FaultRemesher::Impl {
     std::map<Ties, LineTarget> lines_;  ///< rims and junctions, by the bounds they are on
 };
 
-FaultRemesher::FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap, Collapse later,
+SheetRemesher::SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later,
                              std::span<const char> bounds)
     : impl_(std::make_unique<Impl>(complex, sizes, snap, later, bounds)) {}
 
-FaultRemesher::~FaultRemesher() = default;
+SheetRemesher::~SheetRemesher() = default;
 
-FaultRemesher::Result FaultRemesher::pass(const Poll& poll) {
+SheetRemesher::Result SheetRemesher::pass(const Poll& poll) {
     return impl_->pass(poll);
 }
 
-void FaultRemesher::keep(const std::vector<char>& active) {
+void SheetRemesher::keep(const std::vector<char>& active) {
     impl_->keep(active);
 }
 

@@ -14,7 +14,7 @@
 namespace terratet {
 
 /// Sheets under remeshing, to be gone on with when other sizes are wanted or a surface is left out.
-class FaultRemesher {
+class SheetRemesher {
   public:
     /// In later passes short edges, left over from smoothing, are collapsed where sizes have changed, or everywhere.
     /// The former keeps triangles as regular as they are, which certificates depend on (exact mode); the latter keeps
@@ -24,12 +24,12 @@ class FaultRemesher {
     /// Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it. `sizes` must outlive
     /// the remesher and may change between passes. `bounds`, by sheet, marks those the model ends at: they go before
     /// all others, whose points join them and never the other way round, so that bounds in a plane stay in it.
-    FaultRemesher(const FaultComplex& complex, const SizeField& sizes, double snap, Collapse later,
+    SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later,
                   std::span<const char> bounds = {});
-    ~FaultRemesher();
+    ~SheetRemesher();
 
     struct Result {
-        FaultComplex complex;
+        SheetComplex complex;
         std::vector<std::array<std::uint32_t, 2>> crossings;  ///< left over: triangles of the complex
     };
 

@@ -53,7 +53,7 @@ bool is_degenerate(const TriangleCorners& t, double tolerance) {
 }
 
 std::vector<Triangle> usable_triangles(const Surface& surface, const std::vector<std::uint32_t>& place,
-                                       const FaultMesh& mesh, double tolerance) {
+                                       const TriMesh& mesh, double tolerance) {
     std::vector<Triangle> kept;
     for (const Triangle& source : surface.triangles) {
         Triangle t{};
@@ -83,7 +83,7 @@ std::vector<Triangle> usable_triangles(const Surface& surface, const std::vector
 }
 
 /// Makes neighbours agree and splits what is not a surface, duplicating points (CGAL).
-FaultMesh oriented(const FaultMesh& soup) {
+TriMesh oriented(const TriMesh& soup) {
     std::vector<Point> points;
     for (const Vec3& p : soup.points) {
         points.emplace_back(p.x, p.y, p.z);
@@ -93,7 +93,7 @@ FaultMesh oriented(const FaultMesh& soup) {
         polygons.push_back({t[0], t[1], t[2]});
     }
     CGAL::Polygon_mesh_processing::orient_polygon_soup(points, polygons);
-    FaultMesh mesh;
+    TriMesh mesh;
     for (const Point& p : points) {
         mesh.points.push_back({p.x(), p.y(), p.z()});
     }
@@ -104,7 +104,7 @@ FaultMesh oriented(const FaultMesh& soup) {
     return mesh;
 }
 
-std::vector<FaultMesh> connected_parts(const FaultMesh& mesh) {
+std::vector<TriMesh> connected_parts(const TriMesh& mesh) {
     std::vector<std::uint32_t> parent(mesh.points.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t v) {
@@ -120,7 +120,7 @@ std::vector<FaultMesh> connected_parts(const FaultMesh& mesh) {
             parent[std::max(a, b)] = std::min(a, b);
         }
     }
-    std::vector<FaultMesh> parts;
+    std::vector<TriMesh> parts;
     std::vector<std::uint32_t> part_of(mesh.points.size(), unplaced);  // of roots
     std::vector<std::uint32_t> place(mesh.points.size(), unplaced);    // of a point in its part: it has only one
     for (Triangle t : mesh.triangles) {
@@ -129,7 +129,7 @@ std::vector<FaultMesh> connected_parts(const FaultMesh& mesh) {
             index = static_cast<std::uint32_t>(parts.size());
             parts.emplace_back();
         }
-        FaultMesh& part = parts[index];
+        TriMesh& part = parts[index];
         for (std::uint32_t& v : t) {
             if (place[v] == unplaced) {
                 place[v] = static_cast<std::uint32_t>(part.points.size());
@@ -142,7 +142,7 @@ std::vector<FaultMesh> connected_parts(const FaultMesh& mesh) {
     return parts;
 }
 
-Vec3 total_area_vector(const FaultMesh& mesh) {
+Vec3 total_area_vector(const TriMesh& mesh) {
     Vec3 sum;
     for (const Triangle& t : mesh.triangles) {
         sum = sum + area_vector(corners(mesh, t));
@@ -150,7 +150,7 @@ Vec3 total_area_vector(const FaultMesh& mesh) {
     return sum;
 }
 
-void flip(FaultMesh& mesh) {
+void flip(TriMesh& mesh) {
     for (Triangle& t : mesh.triangles) {
         std::swap(t[1], t[2]);
     }
@@ -166,9 +166,9 @@ bool faces_forward(const Vec3& normal) {
 
 }  // namespace
 
-RepairedFault repair_fault(const Surface& surface, double tolerance) {
-    RepairedFault result;
-    FaultMesh soup;
+RepairedSheet repair_sheet(const Surface& surface, double tolerance) {
+    RepairedSheet result;
+    TriMesh soup;
     const std::vector<std::uint32_t> place = merged_points(surface.vertices, tolerance, soup.points);
     soup.triangles = usable_triangles(surface, place, soup, tolerance);
     result.dropped = surface.triangles.size() - soup.triangles.size();
@@ -176,9 +176,9 @@ RepairedFault repair_fault(const Surface& surface, double tolerance) {
     result.area = area(soup);
     result.parts = connected_parts(oriented(soup));
     std::stable_sort(result.parts.begin(), result.parts.end(),
-                     [](const FaultMesh& a, const FaultMesh& b) { return area(a) > area(b); });
+                     [](const TriMesh& a, const TriMesh& b) { return area(a) > area(b); });
     Vec3 reference;
-    for (FaultMesh& part : result.parts) {
+    for (TriMesh& part : result.parts) {
         if (surface.kind == SurfaceKind::domain) {
             break;  // its walls face out as they come
         }
@@ -193,11 +193,11 @@ RepairedFault repair_fault(const Surface& surface, double tolerance) {
     return result;
 }
 
-double drop_self_crossings(RepairedFault& repaired) {
+double drop_self_crossings(RepairedSheet& repaired) {
     double dropped_area = 0;
-    std::vector<FaultMesh> sound;
-    for (FaultMesh& part : repaired.parts) {
-        FaultComplex alone{part.points, part.triangles, std::vector<std::uint32_t>(part.triangles.size(), 0)};
+    std::vector<TriMesh> sound;
+    for (TriMesh& part : repaired.parts) {
+        SheetComplex alone{part.points, part.triangles, std::vector<std::uint32_t>(part.triangles.size(), 0)};
         const auto crossings = crossing_triangles(alone);
         if (crossings.empty()) {
             sound.push_back(std::move(part));
@@ -214,7 +214,7 @@ double drop_self_crossings(RepairedFault& repaired) {
                 dropped[meets[s] >= meets[t] ? s : t] = 1;
             }
         }
-        FaultMesh rest{part.points, {}};
+        TriMesh rest{part.points, {}};
         for (std::size_t t = 0; t < dropped.size(); ++t) {
             if (dropped[t] == 0) {
                 rest.triangles.push_back(part.triangles[t]);
@@ -223,7 +223,7 @@ double drop_self_crossings(RepairedFault& repaired) {
             }
         }
         compact(rest);
-        for (FaultMesh& piece : connected_parts(oriented(rest))) {
+        for (TriMesh& piece : connected_parts(oriented(rest))) {
             sound.push_back(std::move(piece));
         }
     }

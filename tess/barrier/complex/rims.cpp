@@ -15,7 +15,7 @@ constexpr std::uint32_t leaf_size = 8;
 
 }  // namespace
 
-void FaultRims::add(const std::vector<EdgePlace>& rims, double spacing) {
+void FreeRims::add(const std::vector<EdgePlace>& rims, double spacing) {
     for (const auto& [from, to] : rims) {
         if (spacing > 0) {
             edges_.push_back({from, to, spacing});
@@ -23,13 +23,13 @@ void FaultRims::add(const std::vector<EdgePlace>& rims, double spacing) {
     }
 }
 
-void FaultRims::finish() {
+void FreeRims::finish() {
     if (!edges_.empty()) {
         split(0, static_cast<std::uint32_t>(edges_.size()));
     }
 }
 
-void FaultRims::split(std::uint32_t begin, std::uint32_t end) {
+void FreeRims::split(std::uint32_t begin, std::uint32_t end) {
     const auto here = nodes_.size();
     Node& node = nodes_.emplace_back(Node{{}, begin, end, 0});
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -54,7 +54,7 @@ void FaultRims::split(std::uint32_t begin, std::uint32_t end) {
     split(middle, end);
 }
 
-double FaultRims::clearance(const Vec3& a, const Vec3& b) const {
+double FreeRims::clearance(const Vec3& a, const Vec3& b) const {
     double least = 1;
     if (nodes_.empty()) {
         return least;

@@ -15,9 +15,9 @@ namespace terratet {
 /// An edge's two ends.
 using EdgePlace = std::array<Vec3, 2>;
 
-class FaultRims {
+class FreeRims {
   public:
-    FaultRims() = default;
+    FreeRims() = default;
 
     /// \param spacing  of their barrier, the unit of distances from them; rims are left out where it is 0
     void add(const std::vector<EdgePlace>& rims, double spacing);

@@ -25,7 +25,7 @@ void widen(std::vector<char>& marked, const Neighbours& all) {
 
 }  // namespace
 
-std::vector<Vec3> round_bends(FaultComplex& complex, const SizeField& sizes) {
+std::vector<Vec3> round_bends(SheetComplex& complex, const SizeField& sizes) {
     const std::vector<Vec3> before = complex.points;
     const std::size_t count = before.size();
     Neighbours all(count);

@@ -13,6 +13,6 @@ namespace terratet {
 /// neighbours until every bend is resolved, or for 40 rounds. Points of several sheets stay where they are, and what
 /// bends beside them is left. Returns the places that a finer spacing would serve better: still unresolved, or moved by
 /// more than a fifth of the edge length.
-std::vector<Vec3> round_bends(FaultComplex& complex, const SizeField& sizes);
+std::vector<Vec3> round_bends(SheetComplex& complex, const SizeField& sizes);
 
 }  // namespace terratet

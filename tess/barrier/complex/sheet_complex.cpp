@@ -31,7 +31,7 @@ std::uint32_t opposite(const Triangle& t, std::uint32_t a, std::uint32_t b) {
 }
 
 /// The edge of t that does not touch its corner v meets the other triangle?
-bool far_edge_meets(const FaultComplex& complex, const Triangle& t, std::uint32_t v, const Kernel::Triangle_3& other) {
+bool far_edge_meets(const SheetComplex& complex, const Triangle& t, std::uint32_t v, const Kernel::Triangle_3& other) {
     std::array<std::uint32_t, 2> ends{};
     std::size_t n = 0;
     for (const std::uint32_t w : t) {
@@ -42,7 +42,7 @@ bool far_edge_meets(const FaultComplex& complex, const Triangle& t, std::uint32_
     return CGAL::do_intersect(Kernel::Segment_3(point(complex.points[ends[0]]), point(complex.points[ends[1]])), other);
 }
 
-bool improper(const FaultComplex& complex, std::uint32_t i, std::uint32_t j) {
+bool improper(const SheetComplex& complex, std::uint32_t i, std::uint32_t j) {
     const Triangle& s = complex.triangles[i];
     const Triangle& t = complex.triangles[j];
     std::array<std::uint32_t, 3> common{};
@@ -79,20 +79,20 @@ bool improper(const FaultComplex& complex, std::uint32_t i, std::uint32_t j) {
 
 }  // namespace
 
-TriangleCorners corners(const FaultComplex& complex, std::uint32_t triangle) {
+TriangleCorners corners(const SheetComplex& complex, std::uint32_t triangle) {
     const Triangle& t = complex.triangles[triangle];
     return {complex.points[t[0]], complex.points[t[1]], complex.points[t[2]]};
 }
 
-void compact(FaultComplex& complex) {
-    FaultMesh mesh{std::move(complex.points), std::move(complex.triangles)};
+void compact(SheetComplex& complex) {
+    TriMesh mesh{std::move(complex.points), std::move(complex.triangles)};
     compact(mesh);
     complex.points = std::move(mesh.points);
     complex.triangles = std::move(mesh.triangles);
 }
 
-FaultMesh sheet_of(const FaultComplex& complex, std::uint32_t sheet) {
-    FaultMesh mesh{complex.points, {}};
+TriMesh sheet_of(const SheetComplex& complex, std::uint32_t sheet) {
+    TriMesh mesh{complex.points, {}};
     for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
         if (complex.sheet[t] == sheet) {
             mesh.triangles.push_back(complex.triangles[t]);
@@ -134,11 +134,11 @@ std::span<const std::uint32_t> EdgeTable::triangles(std::uint32_t a, std::uint32
     return triangles(*found);
 }
 
-bool is_smooth(const FaultComplex& complex, std::span<const std::uint32_t> of_edge) {
+bool is_smooth(const SheetComplex& complex, std::span<const std::uint32_t> of_edge) {
     return of_edge.size() == 2 && complex.sheet[of_edge[0]] == complex.sheet[of_edge[1]];
 }
 
-Patches patches(const FaultComplex& complex, const EdgeTable& edges) {
+Patches patches(const SheetComplex& complex, const EdgeTable& edges) {
     std::vector<std::uint32_t> parent(complex.triangles.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t t) {
@@ -163,7 +163,7 @@ Patches patches(const FaultComplex& complex, const EdgeTable& edges) {
     return result;
 }
 
-void restore_sense(FaultComplex& complex) {
+void restore_sense(SheetComplex& complex) {
     const EdgeTable edges(complex.triangles);
     const auto runs = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {  // does its sense take it from a to b?
         const Triangle& v = complex.triangles[t];
@@ -214,7 +214,7 @@ void restore_sense(FaultComplex& complex) {
     }
 }
 
-void halve_corners(FaultComplex& complex, const std::vector<char>& marked) {
+void halve_corners(SheetComplex& complex, const std::vector<char>& marked) {
     const EdgeTable edges(complex.triangles);
     std::vector<std::array<std::uint32_t, 3>> halves;  // ends and middle
     for (const EdgeTable::Edge& e : edges.edges()) {
@@ -244,7 +244,7 @@ void halve_corners(FaultComplex& complex, const std::vector<char>& marked) {
     }
 }
 
-Fan fan_about(const FaultComplex& complex, std::span<const std::uint32_t> of_edge, std::uint32_t a, std::uint32_t b) {
+Fan fan_about(const SheetComplex& complex, std::span<const std::uint32_t> of_edge, std::uint32_t a, std::uint32_t b) {
     const Vec3 origin = complex.points[a];
     const Vec3 along = unit(complex.points[b] - origin);
     std::vector<std::pair<double, std::uint32_t>> directions;
@@ -271,7 +271,7 @@ Fan fan_about(const FaultComplex& complex, std::span<const std::uint32_t> of_edg
     return fan;
 }
 
-double wedge_angle(const FaultComplex& complex, std::span<const std::uint32_t> of_edge, std::uint32_t a,
+double wedge_angle(const SheetComplex& complex, std::span<const std::uint32_t> of_edge, std::uint32_t a,
                    std::uint32_t b) {
     if (of_edge.size() < 2) {
         return std::numbers::pi;
@@ -280,7 +280,7 @@ double wedge_angle(const FaultComplex& complex, std::span<const std::uint32_t> o
     return *std::ranges::min_element(fan.angle);
 }
 
-std::vector<std::array<std::uint32_t, 2>> crossing_triangles(const FaultComplex& complex) {
+std::vector<std::array<std::uint32_t, 2>> crossing_triangles(const SheetComplex& complex) {
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
     std::vector<Box> boxes;
     boxes.reserve(complex.triangles.size());

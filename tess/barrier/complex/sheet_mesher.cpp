@@ -17,7 +17,7 @@ constexpr double zip = 0.15;          ///< in edge lengths: sheets nearer to eac
 constexpr double widest_exact = 1.5;  ///< radians: the seeds of right-angled neighbours would coincide
 
 /// Which connected piece each triangle belongs to.
-std::vector<std::uint32_t> pieces_of(const FaultComplex& complex) {
+std::vector<std::uint32_t> pieces_of(const SheetComplex& complex) {
     std::vector<std::uint32_t> parent(complex.points.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t v) {
@@ -39,8 +39,8 @@ std::vector<std::uint32_t> pieces_of(const FaultComplex& complex) {
     return piece;
 }
 
-FaultComplex only(const FaultComplex& complex, const std::vector<char>& active) {
-    FaultComplex result{complex.points, {}, {}};
+SheetComplex only(const SheetComplex& complex, const std::vector<char>& active) {
+    SheetComplex result{complex.points, {}, {}};
     for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
         if (active[complex.sheet[t]] != 0) {
             result.triangles.push_back(complex.triangles[t]);
@@ -51,7 +51,7 @@ FaultComplex only(const FaultComplex& complex, const std::vector<char>& active) 
     return result;
 }
 
-void append(FaultComplex& to, const FaultComplex& more) {
+void append(SheetComplex& to, const SheetComplex& more) {
     const auto offset = static_cast<std::uint32_t>(to.points.size());
     to.points.insert(to.points.end(), more.points.begin(), more.points.end());
     for (const Triangle& t : more.triangles) {
@@ -62,18 +62,18 @@ void append(FaultComplex& to, const FaultComplex& more) {
 
 }  // namespace
 
-FaultMesher::FaultMesher(FaultComplex cut, double spacing, FaultMode mode, std::vector<char> bounds)
+SheetMesher::SheetMesher(SheetComplex cut, double spacing, SeedMode mode, std::vector<char> bounds)
     : cut_(std::move(cut)), mode_(mode), bounds_(std::move(bounds)), sizes_(spacing) {}
 
-FaultRemesher::Result FaultMesher::mesh(const Poll& poll) {
+SheetRemesher::Result SheetMesher::mesh(const Poll& poll) {
     if (!remesher_ || (!staying_.triangles.empty() && !sizes_.uniform())) {
         staying_ = {};
-        remesher_ = std::make_unique<FaultRemesher>(
+        remesher_ = std::make_unique<SheetRemesher>(
             sizes_.uniform() ? without_staying() : cut_, sizes_, zip,
-            mode_ == FaultMode::exact ? FaultRemesher::Collapse::where_changed : FaultRemesher::Collapse::everywhere,
+            mode_ == SeedMode::exact ? SheetRemesher::Collapse::where_changed : SheetRemesher::Collapse::everywhere,
             bounds_);
     }
-    FaultRemesher::Result result = remesher_->pass(poll);
+    SheetRemesher::Result result = remesher_->pass(poll);
     append(result.complex, staying_);
     triangles_ = result.complex.triangles.size();
     first_triangles_ = first_triangles_ == 0 ? triangles_ : first_triangles_;
@@ -81,9 +81,9 @@ FaultRemesher::Result FaultMesher::mesh(const Poll& poll) {
 }
 
 /// Puts the pieces that may stay into staying_, and returns the others.
-FaultComplex FaultMesher::without_staying() {
+SheetComplex SheetMesher::without_staying() {
     const std::vector<std::uint32_t> piece_of = pieces_of(cut_);
-    std::map<std::uint32_t, FaultMesh> pieces;
+    std::map<std::uint32_t, TriMesh> pieces;
     for (std::uint32_t t = 0; t < cut_.triangles.size(); ++t) {
         pieces[piece_of[t]].triangles.push_back(cut_.triangles[t]);
     }
@@ -91,7 +91,7 @@ FaultComplex FaultMesher::without_staying() {
     for (auto& [number, piece] : pieces) {
         piece.points = cut_.points;
         compact(piece);
-        stays[number] = suits(piece, sizes_.spacing(), mode_ == FaultMode::exact ? widest_exact : std::numbers::pi);
+        stays[number] = suits(piece, sizes_.spacing(), mode_ == SeedMode::exact ? widest_exact : std::numbers::pi);
     }
     const EdgeTable edges(cut_.triangles);
     for (const EdgeTable::Edge& e : edges.edges()) {
@@ -100,10 +100,10 @@ FaultComplex FaultMesher::without_staying() {
             stays[piece_of[of_edge[0]]] = false;
         }
     }
-    FaultComplex changing{cut_.points, {}, {}};
+    SheetComplex changing{cut_.points, {}, {}};
     staying_ = {cut_.points, {}, {}};
     for (std::uint32_t t = 0; t < cut_.triangles.size(); ++t) {
-        FaultComplex& to = stays[piece_of[t]] ? staying_ : changing;
+        SheetComplex& to = stays[piece_of[t]] ? staying_ : changing;
         to.triangles.push_back(cut_.triangles[t]);
         to.sheet.push_back(cut_.sheet[t]);
     }
@@ -112,14 +112,14 @@ FaultComplex FaultMesher::without_staying() {
     return changing;
 }
 
-void FaultMesher::want(const std::vector<WantedSize>& wishes) {
+void SheetMesher::want(const std::vector<WantedSize>& wishes) {
     for (const WantedSize& wish : wishes) {
         sizes_.refine(wish.place.position, wish.size);
         wishes_.push_back(wish);
     }
 }
 
-bool FaultMesher::refine(const std::vector<FinerPlace>& places, int halvings) {
+bool SheetMesher::refine(const std::vector<FinerPlace>& places, int halvings) {
     const double finest = std::ldexp(sizes_.spacing(), -halvings);
     std::vector<WantedSize> wishes;
     for (const FinerPlace& place : places) {
@@ -131,7 +131,7 @@ bool FaultMesher::refine(const std::vector<FinerPlace>& places, int halvings) {
     return !wishes.empty();
 }
 
-void FaultMesher::keep(const std::vector<char>& active) {
+void SheetMesher::keep(const std::vector<char>& active) {
     cut_ = only(cut_, active);
     staying_ = only(staying_, active);
     if (remesher_) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tess/barrier.hpp"
-#include "tess/barrier/complex/sheet_complex.hpp"
 #include "tess/barrier/complex/remesh.hpp"
+#include "tess/barrier/complex/sheet_complex.hpp"
 #include "tess/base/size_field.hpp"
 
 namespace terratet {
@@ -26,17 +26,17 @@ struct WantedSize {
     double size;
 };
 
-class FaultMesher {
+class SheetMesher {
   public:
     /// \param cut     sheets that meet in shared edges only (cut_sheets.hpp)
     /// \param mode    exact: pieces with obtuse angles are remeshed even if their spacing suits, and all are kept
     ///                 regular
     /// \param bounds  by surface: does the model end at it?
-    FaultMesher(FaultComplex cut, double spacing, FaultMode mode, std::vector<char> bounds);
+    SheetMesher(SheetComplex cut, double spacing, SeedMode mode, std::vector<char> bounds);
 
     /// The sheets at the sizes now wanted. Pieces that suit the spacing as they came and meet no other sheet are kept
     /// as they are until something is refined.
-    FaultRemesher::Result mesh(const Poll& poll = {});
+    SheetRemesher::Result mesh(const Poll& poll = {});
 
     /// Asks for triangles of given sizes.
     void want(const std::vector<WantedSize>& wishes);
@@ -48,22 +48,22 @@ class FaultMesher {
     void keep(const std::vector<char>& active);
 
     /// The sheets as cut, of the surfaces still in.
-    [[nodiscard]] const FaultComplex& cut() const { return cut_; }
+    [[nodiscard]] const SheetComplex& cut() const { return cut_; }
     [[nodiscard]] const SizeField& sizes() const { return sizes_; }
 
     /// So many triangles more than at first that it should stop here?
     [[nodiscard]] bool overgrown() const { return triangles_ > 2 * first_triangles_ + 4000; }
 
   private:
-    FaultComplex without_staying();
+    SheetComplex without_staying();
 
-    FaultComplex cut_;
-    FaultMode mode_;
+    SheetComplex cut_;
+    SeedMode mode_;
     std::vector<char> bounds_;
     SizeField sizes_;
     std::vector<WantedSize> wishes_;
-    FaultComplex staying_;
-    std::unique_ptr<FaultRemesher> remesher_;
+    SheetComplex staying_;
+    std::unique_ptr<SheetRemesher> remesher_;
     std::size_t first_triangles_ = 0;
     std::size_t triangles_ = 0;
 };

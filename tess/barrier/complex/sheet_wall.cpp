@@ -23,13 +23,13 @@ Kernel::Point_3 point(const Vec3& p) {
 
 }  // namespace
 
-struct FaultWall::Impl {
-    const FaultComplex& complex;
+struct SheetWall::Impl {
+    const SheetComplex& complex;
     Triangles triangles;
     std::vector<std::uint32_t> number;  ///< in the complex
     Tree tree;
 
-    explicit Impl(const FaultComplex& c) : complex(c) {
+    explicit Impl(const SheetComplex& c) : complex(c) {
         for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
             const TriangleCorners k = corners(complex, t);
             const Kernel::Triangle_3 triangle(point(k[0]), point(k[1]), point(k[2]));
@@ -49,10 +49,10 @@ struct FaultWall::Impl {
     }
 };
 
-FaultWall::FaultWall(const FaultComplex& complex) : impl_(std::make_unique<Impl>(complex)) {}
-FaultWall::~FaultWall() = default;
+SheetWall::SheetWall(const SheetComplex& complex) : impl_(std::make_unique<Impl>(complex)) {}
+SheetWall::~SheetWall() = default;
 
-bool FaultWall::between(const Vec3& a, const Vec3& b, std::optional<std::uint32_t> except) const {
+bool SheetWall::between(const Vec3& a, const Vec3& b, std::optional<std::uint32_t> except) const {
     if (impl_->triangles.empty() || a == b) {
         return false;
     }
@@ -65,7 +65,7 @@ bool FaultWall::between(const Vec3& a, const Vec3& b, std::optional<std::uint32_
     return std::ranges::any_of(met, [&](const auto& i) { return impl_->number_of(i) != *except; });
 }
 
-double FaultWall::distance_to_others(const Vec3& p, std::uint32_t surface, double limit) const {
+double SheetWall::distance_to_others(const Vec3& p, std::uint32_t surface, double limit) const {
     std::vector<Tree::Primitive_id> near;
     impl_->tree.all_intersected_primitives(Kernel::Sphere_3(point(p), limit * limit), std::back_inserter(near));
     double least = limit * limit;

@@ -11,12 +11,12 @@
 
 namespace terratet {
 
-class FaultWall {
+class SheetWall {
   public:
-    explicit FaultWall(const FaultComplex& complex);
-    ~FaultWall();
-    FaultWall(const FaultWall&) = delete;
-    FaultWall& operator=(const FaultWall&) = delete;
+    explicit SheetWall(const SheetComplex& complex);
+    ~SheetWall();
+    SheetWall(const SheetWall&) = delete;
+    SheetWall& operator=(const SheetWall&) = delete;
 
     /// Does the closed segment meet a triangle other than `except`? O(log n).
     [[nodiscard]] bool between(const Vec3& a, const Vec3& b, std::optional<std::uint32_t> except = {}) const;

@@ -16,7 +16,7 @@ constexpr double screened = 1.1;        ///< see crowded_places()
 
 }  // namespace
 
-std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& edges) {
+std::vector<char> inner_triangles(const SheetComplex& complex, const EdgeTable& edges) {
     std::vector<char> at_edge(complex.points.size(), 0);
     for (const EdgeTable::Edge& e : edges.edges()) {
         if (!is_smooth(complex, edges.triangles(e))) {
@@ -39,11 +39,11 @@ std::vector<char> inner_triangles(const FaultComplex& complex, const EdgeTable& 
     return inner;
 }
 
-FinerPlace place_of(const FaultComplex& complex, std::uint32_t t) {
+FinerPlace place_of(const SheetComplex& complex, std::uint32_t t) {
     return {centroid(corners(complex, t)), {complex.sheet[t]}};
 }
 
-std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
+std::vector<FinerPlace> crossing_places(const SheetComplex& complex,
                                         const std::vector<std::array<std::uint32_t, 2>>& pairs) {
     std::vector<FinerPlace> places;
     for (const auto& [s, t] : pairs) {
@@ -54,7 +54,7 @@ std::vector<FinerPlace> crossing_places(const FaultComplex& complex,
     return places;
 }
 
-std::vector<FinerPlace> crowded_places(const FaultComplex& complex, const std::vector<std::vector<Seed>>& seeds,
+std::vector<FinerPlace> crowded_places(const SheetComplex& complex, const std::vector<std::vector<Seed>>& seeds,
                                        const SizeField& sizes, const std::vector<char>& walls, const Poll& poll) {
     const double spacing = sizes.spacing();
     const double horizon = 0.75 * spacing;

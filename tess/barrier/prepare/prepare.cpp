@@ -7,17 +7,17 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tess/error.hpp"
 #include "tess/barrier/prepare/preparer.hpp"
+#include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-double requested_spacing(const FaultOptions& options, double l_min) {
+double requested_spacing(const BarrierOptions& options, double l_min) {
     return options.spacing > 0 ? options.spacing : l_min;
 }
 
-void validate(const FaultOptions& options, double l_min) {
+void validate(const BarrierOptions& options, double l_min) {
     const double spacing = requested_spacing(options, l_min);
     for (const double length : {options.spacing, options.width, options.snap}) {
         if (!(length >= 0) || !std::isfinite(length)) {
@@ -30,7 +30,7 @@ void validate(const FaultOptions& options, double l_min) {
                          ": the seeds of a pair must be nearer to each other than to the next pair; lower "
                          "--fault-width");
     }
-    if (options.refine && options.mode != FaultMode::paired) {
+    if (options.refine && options.mode != SeedMode::paired) {
         throw UsageError("--fault-refine needs --fault-mode paired: triangles of unequal size are hard to certify");
     }
     if (!(options.snap <= 0.5 * spacing)) {
@@ -47,7 +47,7 @@ std::string short_text(double value) {
     return buffer.data();
 }
 
-FaultScale::FaultScale(const FaultOptions& options, double l_min)
+BarrierScale::BarrierScale(const BarrierOptions& options, double l_min)
     : spacing(requested_spacing(options, l_min)),
       width(options.width > 0 ? options.width : spacing / 4),
       snap(options.snap > 0 ? options.snap : spacing / 20),
@@ -56,22 +56,22 @@ FaultScale::FaultScale(const FaultOptions& options, double l_min)
       reach(protection + spacing),
       hull(reach + spacing) {}
 
-double hull_margin(const FaultOptions& options, double l_min) {
-    return FaultScale(options, l_min).hull;
+double hull_margin(const BarrierOptions& options, double l_min) {
+    return BarrierScale(options, l_min).hull;
 }
 
 double separating_spacing(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, double l_min,
-                          const FaultOptions& options, const Progress& progress) {
+                          const BarrierOptions& options, const Progress& progress) {
     validate(options, l_min);
-    return FaultPreparer(surfaces, extent, frame, FaultScale(options, l_min), options, progress, {})
+    return BarrierPreparer(surfaces, extent, frame, BarrierScale(options, l_min), options, progress, {})
         .separating_spacing();
 }
 
-FaultPreparation prepare_faults(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
-                                double l_min, const FaultOptions& options, const Progress& progress,
-                                std::span<const Vec3> samples) {
+BarrierPreparation prepare_barriers(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
+                                    double l_min, const BarrierOptions& options, const Progress& progress,
+                                    std::span<const Vec3> samples) {
     validate(options, l_min);
-    return FaultPreparer(surfaces, extent, frame, FaultScale(options, l_min), options, progress, samples).run();
+    return BarrierPreparer(surfaces, extent, frame, BarrierScale(options, l_min), options, progress, samples).run();
 }
 
 }  // namespace terratet

@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <map>
 
-#include "tess/error.hpp"
 #include "tess/barrier/complex/clip_sheet.hpp"
-#include "tess/barrier/prepare/crowding.hpp"
 #include "tess/barrier/complex/margin.hpp"
-#include "tess/barrier/complex/measure_sheet.hpp"
-#include "tess/barrier/complex/round_off.hpp"
 #include "tess/barrier/complex/margin_row.hpp"
+#include "tess/barrier/complex/measure_sheet.hpp"
 #include "tess/barrier/complex/places_near.hpp"
+#include "tess/barrier/complex/round_off.hpp"
+#include "tess/barrier/prepare/crowding.hpp"
+#include "tess/error.hpp"
 
 namespace terratet {
 namespace {
@@ -23,15 +23,15 @@ constexpr double row_clearance = 0.6;  ///< in edge lengths: a margin row keeps 
 constexpr int halvings = 3;            ///< of the spacing, where the sides could not be separated
 constexpr int exact_halvings = 1;      ///< against leaks in exact mode: triangles of unequal size are hard to certify
 
-bool crosses_itself(const FaultMesh& mesh) {
-    const FaultComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
+bool crosses_itself(const TriMesh& mesh) {
+    const SheetComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
     return !crossing_triangles(alone).empty();
 }
 
 constexpr const char* enough = ", and too many others do not get along to try what would";
 
 /// Points at equal places become one.
-void weld(FaultMesh& mesh) {
+void weld(TriMesh& mesh) {
     std::map<Vec3, std::uint32_t> first;
     for (Triangle& t : mesh.triangles) {
         for (std::uint32_t& v : t) {
@@ -41,7 +41,7 @@ void weld(FaultMesh& mesh) {
     compact(mesh);
 }
 
-Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& frame) {
+Surface surface_of(const TriMesh& mesh, const Surface& source, const Frame& frame) {
     Surface result{source.name, source.kind, mesh.points, mesh.triangles, source.file};
     for (Vec3& p : result.vertices) {
         p = frame.snapped(p);
@@ -51,9 +51,9 @@ Surface surface_of(const FaultMesh& mesh, const Surface& source, const Frame& fr
 
 }  // namespace
 
-FaultPreparer::FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
-                             const FaultScale& scale, const FaultOptions& options, const Progress& progress,
-                             std::span<const Vec3> samples)
+BarrierPreparer::BarrierPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
+                                 const BarrierScale& scale, const BarrierOptions& options, const Progress& progress,
+                                 std::span<const Vec3> samples)
     : surfaces_(surfaces),
       extent_(extent),
       limit_(extent.grown(scale.reach)),
@@ -63,7 +63,7 @@ FaultPreparer::FaultPreparer(const std::vector<Surface>& surfaces, const Box3& e
       progress_(progress),
       samples_(samples) {}
 
-FaultPreparation FaultPreparer::run() {
+BarrierPreparation BarrierPreparer::run() {
     repair();
     refuse_alternatives();
     check_budget();
@@ -71,7 +71,7 @@ FaultPreparation FaultPreparer::run() {
         extend(k);
     }
     cut();
-    FaultPreparation result;
+    BarrierPreparation result;
     while (std::ranges::any_of(candidates_, &Candidate::active)) {
         if (std::optional<Pass> pass = attempt(); pass && seal(*pass)) {
             finish(*pass, result);
@@ -84,35 +84,35 @@ FaultPreparation FaultPreparer::run() {
     return result;
 }
 
-Poll FaultPreparer::told(std::string_view stage, double fraction) const {
+Poll BarrierPreparer::told(std::string_view stage, double fraction) const {
     return [this, stage, fraction] { report_progress(progress_, stage, fraction); };
 }
 
-std::string FaultPreparer::text_of(const Vec3& place) const {
+std::string BarrierPreparer::text_of(const Vec3& place) const {
     const Vec3 p = frame_.to_world(place);
     std::array<char, 96> buffer{};
     std::snprintf(buffer.data(), buffer.size(), "(%.1f, %.1f, %.1f)", p.x, p.y, p.z);
     return buffer.data();
 }
 
-void FaultPreparer::refuse(Candidate& candidate, const std::string& reason) {
+void BarrierPreparer::refuse(Candidate& candidate, const std::string& reason) {
     candidate.active = false;
     candidate.account.reason = reason;
     candidate.account.area_refused = candidate.area_inside;
 }
 
-std::string FaultPreparer::described(const Candidate& candidate) {
+std::string BarrierPreparer::described(const Candidate& candidate) {
     return std::string(to_string(candidate.surface->kind)) + " '" + candidate.surface->name + "'";
 }
 
 /// A rim that wavers may not be continued beyond its face, or not as far as to it: then it ends where it ended.
-void FaultPreparer::extend(std::uint32_t number) {
+void BarrierPreparer::extend(std::uint32_t number) {
     Candidate& candidate = candidates_[number];
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool wall = candidate.surface->kind == SurfaceKind::domain;  // ends at the next one, however near a face
-    for (const FaultMesh& part : candidate.active ? candidate.repaired.parts : std::vector<FaultMesh>{}) {
+    for (const TriMesh& part : candidate.active ? candidate.repaired.parts : std::vector<TriMesh>{}) {
         for (const double snap : {wall ? 0.0 : scale_.spacing, 0.0, -infinity}) {
-            FaultMesh extended = extended_across(part, extent_, snap, scale_.reach, scale_.spacing);
+            TriMesh extended = extended_across(part, extent_, snap, scale_.reach, scale_.spacing);
             const bool last = snap == -infinity;
             if (last || !crosses_itself(extended)) {
                 if (last) {
@@ -128,7 +128,7 @@ void FaultPreparer::extend(std::uint32_t number) {
     }
 }
 
-std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
+std::optional<BarrierPreparer::Pass> BarrierPreparer::attempt() {
     std::vector<char> active;
     std::vector<char> walls;
     for (const Candidate& candidate : candidates_) {
@@ -140,11 +140,11 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
     const SizeField& sizes = mesher_->sizes();
     Pass pass;
     pass.trimmed = cut_.trimmed;
-    const bool paired = options_.mode == FaultMode::paired;
+    const bool paired = options_.mode == SeedMode::paired;
     std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
     for (int halving = 0;; ++halving) {
         const double meshed_share = 1 - 1 / (1 + 0.2 * passes_++);
-        FaultRemesher::Result meshed = mesher_->mesh(told("meshing faults", meshed_share));
+        SheetRemesher::Result meshed = mesher_->mesh(told("meshing faults", meshed_share));
         const auto& crossings = meshed.crossings;
         pass.complex = std::move(meshed.complex);
         const bool last = halving == halvings || mesher_->overgrown() || hurries();
@@ -158,7 +158,7 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
             continue;
         }
         if (paired) {
-            FaultComplex rounded = pass.complex;
+            SheetComplex rounded = pass.complex;
             std::vector<FinerPlace> bends;
             for (const Vec3& p : round_bends(rounded, sizes)) {
                 bends.push_back({p, {}});
@@ -216,7 +216,7 @@ std::optional<FaultPreparer::Pass> FaultPreparer::attempt() {
 }
 
 /// Once for all attempts: what is refused later leaves no more than points on the others.
-void FaultPreparer::cut() {
+void BarrierPreparer::cut() {
     do {
         const Poll cutting = told("cutting faults", 0);
         std::vector<Sheet> sheets;
@@ -243,15 +243,15 @@ void FaultPreparer::cut() {
     for (const Candidate& candidate : candidates_) {
         bounds.push_back(is_bound(candidate.surface->kind) ? 1 : 0);
     }
-    mesher_ = std::make_unique<FaultMesher>(std::move(cut_.complex), scale_.spacing, options_.mode, std::move(bounds));
+    mesher_ = std::make_unique<SheetMesher>(std::move(cut_.complex), scale_.spacing, options_.mode, std::move(bounds));
     if (options_.refine) {
         mesher_->want(places_near(samples_, mesher_->cut(), scale_.spacing));
     }
 }
 
 /// Of each pair the one goes that is no bound, or the smaller, unless the other went already.
-bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
-                                  const std::string& what) {
+bool BarrierPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
+                                    const std::string& what) {
     const auto weight = [](const Candidate& candidate) {
         return std::pair(is_bound(candidate.surface->kind), candidate.area_inside);
     };
@@ -276,8 +276,8 @@ bool FaultPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, std
     return any;
 }
 
-bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
-                                    const std::vector<std::array<std::uint32_t, 2>>& crossings) {
+bool BarrierPreparer::refuse_crossing(const SheetComplex& complex,
+                                      const std::vector<std::array<std::uint32_t, 2>>& crossings) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     for (const auto& [s, t] : crossings) {
         const auto [a, b] = std::minmax(complex.sheet[s], complex.sheet[t]);
@@ -289,26 +289,26 @@ bool FaultPreparer::refuse_crossing(const FaultComplex& complex,
                          "is too rough for the spacing, or meets it at too small an angle: remeshed it still crosses ");
 }
 
-void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend) const {
+void BarrierPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend) const {
     const Box3* within = mend ? &extent_ : nullptr;
     const EdgeTable edges(pass.complex.triangles);
-    const FaultWall wall(pass.complex);
+    const SheetWall wall(pass.complex);
     const auto count = static_cast<std::uint32_t>(candidates_.size());
-    if (options_.mode == FaultMode::paired) {
+    if (options_.mode == SeedMode::paired) {
         pass.skirts = skirts(pass.complex, edges);
         pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll, within},
                                    pass.skirts);
     } else {
-        const FaultComplex whole_complex =
+        const SheetComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
         const EdgeTable all_edges(whole_complex.triangles);
         pass.seeded =
             exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll, within});
-        pass.skirts.assign(count, FaultMesh{whole_complex.points, {}});
+        pass.skirts.assign(count, TriMesh{whole_complex.points, {}});
         for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
             pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);
         }
-        std::ranges::for_each(pass.skirts, [](FaultMesh& mesh) { compact(mesh); });
+        std::ranges::for_each(pass.skirts, [](TriMesh& mesh) { compact(mesh); });
     }
     pass.finest.assign(candidates_.size(), scale_.spacing);
     for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
@@ -317,13 +317,13 @@ void FaultPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll, b
     }
 }
 
-std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const EdgeTable& edges) const {
-    std::vector<FaultMesh> sheets(candidates_.size());
+std::vector<TriMesh> BarrierPreparer::skirts(const SheetComplex& complex, const EdgeTable& edges) const {
+    std::vector<TriMesh> sheets(candidates_.size());
     for (std::uint32_t t = 0; t < complex.triangles.size(); ++t) {
         sheets[complex.sheet[t]].triangles.push_back(complex.triangles[t]);
     }
-    std::vector<FaultMesh> result;
-    for (FaultMesh& sheet : sheets) {
+    std::vector<TriMesh> result;
+    for (TriMesh& sheet : sheets) {
         if (sheet.triangles.empty()) {
             result.emplace_back();
             continue;
@@ -336,10 +336,10 @@ std::vector<FaultMesh> FaultPreparer::skirts(const FaultComplex& complex, const 
     return result;
 }
 
-void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {
+void BarrierPreparer::finish(const Pass& pass, BarrierPreparation& result) {
     std::uint64_t seeds = 0;
-    for (const auto& of_fault : pass.seeded.seeds) {
-        seeds += of_fault.size();
+    for (const auto& of_barrier : pass.seeded.seeds) {
+        seeds += of_barrier.size();
     }
     if (seeds > options_.max_seeds) {
         throw Error("the faults need " + std::to_string(seeds) + " seeds, and max_seeds allows " +
@@ -353,9 +353,9 @@ void FaultPreparer::finish(const Pass& pass, FaultPreparation& result) {
 }
 
 /// Without triangles when none of it is left within the extent.
-FaultPreparer::Piece FaultPreparer::piece_of(const Pass& pass, std::uint32_t number) const {
-    FaultMesh certified{pass.complex.points, {}};
-    FaultMesh uncertified{pass.complex.points, {}};
+BarrierPreparer::Piece BarrierPreparer::piece_of(const Pass& pass, std::uint32_t number) const {
+    TriMesh certified{pass.complex.points, {}};
+    TriMesh uncertified{pass.complex.points, {}};
     for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
         if (pass.complex.sheet[t] == number) {
             (pass.seeded.certified[t] != 0 ? certified : uncertified).triangles.push_back(pass.complex.triangles[t]);
@@ -365,33 +365,33 @@ FaultPreparer::Piece FaultPreparer::piece_of(const Pass& pass, std::uint32_t num
     compact(uncertified);
     BoxCut sure = cut_to_box(std::move(certified), extent_);
     const BoxCut rest = cut_to_box(std::move(uncertified), extent_);
-    FaultMesh sheet = std::move(sure.inside);
+    TriMesh sheet = std::move(sure.inside);
     Piece piece;
     piece.certified.assign(sheet.triangles.size(), 1);
     append(sheet, rest.inside);
     piece.certified.resize(sheet.triangles.size(), 0);
     weld(sheet);
-    FaultMesh margin = std::move(sure.outside);
+    TriMesh margin = std::move(sure.outside);
     append(margin, rest.outside);
     weld(margin);
     append(margin, pass.skirts[number]);
     const Candidate& candidate = candidates_[number];
-    Fault& fault = piece.fault;
-    fault.name = candidate.surface->name;
-    fault.spacing = scale_.spacing;
-    fault.width = scale_.width;
-    fault.sheet = surface_of(sheet, *candidate.surface, frame_);
-    fault.margin = surface_of(margin, *candidate.surface, frame_);
-    fault.seeds = pass.seeded.seeds[number];
-    fault.covering_radius = pass.seeded.covering_radius[number];
-    fault.protection_radius = pass.seeded.protection_radius[number];
-    fault.refined = options_.refine;
+    Barrier& barrier = piece.barrier;
+    barrier.name = candidate.surface->name;
+    barrier.spacing = scale_.spacing;
+    barrier.width = scale_.width;
+    barrier.sheet = surface_of(sheet, *candidate.surface, frame_);
+    barrier.margin = surface_of(margin, *candidate.surface, frame_);
+    barrier.seeds = pass.seeded.seeds[number];
+    barrier.covering_radius = pass.seeded.covering_radius[number];
+    barrier.protection_radius = pass.seeded.protection_radius[number];
+    barrier.refined = options_.refine;
     return piece;
 }
 
-void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPreparation& result) {
+void BarrierPreparer::collect(const Pass& pass, std::uint32_t number, BarrierPreparation& result) {
     Candidate& candidate = candidates_[number];
-    FaultAccount& account = candidate.account;
+    BarrierAccount& account = candidate.account;
     account.finest_spacing = pass.finest[number];
     for (std::uint32_t t = 0; t < pass.complex.triangles.size(); ++t) {
         if (pass.complex.sheet[t] == number) {
@@ -401,24 +401,24 @@ void FaultPreparer::collect(const Pass& pass, std::uint32_t number, FaultPrepara
         }
     }
     Piece piece = piece_of(pass, number);
-    if (piece.fault.sheet.triangles.empty()) {
+    if (piece.barrier.sheet.triangles.empty()) {
         account.reason = "nothing of it is left within the extent";
         account.area_trimmed = candidate.area_inside;
         return;
     }
     account.used = true;
-    account.seeds = piece.fault.seeds.size();
+    account.seeds = piece.barrier.seeds.size();
     account.area_trimmed = std::min(candidate.area_inside, candidate.area_dropped + pass.trimmed[number]);
     account.area_used = candidate.area_inside - account.area_trimmed;
-    FaultMesh read;
+    TriMesh read;
     for (const Sheet& as_read : candidate.sheets) {  // with what was added at the extent's faces
         append(read, as_read.mesh);
     }
-    const Deviation measured = deviation(read, {piece.fault.sheet.vertices, piece.fault.sheet.triangles}, extent_);
+    const Deviation measured = deviation(read, {piece.barrier.sheet.vertices, piece.barrier.sheet.triangles}, extent_);
     account.deviation_median = measured.median;
     account.deviation_p95 = measured.p95;
     account.deviation_max = measured.max;
-    result.faults.push_back(std::move(piece.fault));
+    result.barriers.push_back(std::move(piece.barrier));
     result.certified.push_back(std::move(piece.certified));
 }
 

@@ -12,8 +12,8 @@
 
 #include "tess/barrier.hpp"
 #include "tess/barrier/complex/cut_sheets.hpp"
-#include "tess/barrier/complex/sheet_mesher.hpp"
 #include "tess/barrier/complex/repair.hpp"
+#include "tess/barrier/complex/sheet_mesher.hpp"
 #include "tess/barrier/seeds/seal.hpp"
 #include "tess/barrier/seeds/seeding.hpp"
 #include "tess/frame.hpp"
@@ -25,8 +25,8 @@ namespace terratet {
 std::string short_text(double value);
 
 /// Every length that follows from the spacing s.
-struct FaultScale {
-    FaultScale(const FaultOptions& options, double l_min);
+struct BarrierScale {
+    BarrierScale(const BarrierOptions& options, double l_min);
 
     double spacing;
     double width;
@@ -37,12 +37,13 @@ struct FaultScale {
     double hull;        ///< and the hull box
 };
 
-class FaultPreparer {
+class BarrierPreparer {
   public:
-    FaultPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame, const FaultScale& scale,
-                  const FaultOptions& options, const Progress& progress, std::span<const Vec3> samples);
+    BarrierPreparer(const std::vector<Surface>& surfaces, const Box3& extent, const Frame& frame,
+                    const BarrierScale& scale, const BarrierOptions& options, const Progress& progress,
+                    std::span<const Vec3> samples);
 
-    FaultPreparation run();
+    BarrierPreparation run();
 
     /// See separating_spacing().
     double separating_spacing();
@@ -53,26 +54,26 @@ class FaultPreparer {
     /// A surface on its way; its place in the list is its number in the complex.
     struct Candidate {
         const Surface* surface = nullptr;
-        RepairedFault repaired;
+        RepairedSheet repaired;
         double area_inside = 0;
         double area_dropped = 0;    ///< taken out in repair: where it ran through itself, doubles, crumbs
         std::vector<Sheet> sheets;  ///< extended across the extent's faces
         bool active = true;
-        FaultAccount account;
+        BarrierAccount account;
     };
     /// One pass over all that is left.
     struct Pass {
-        FaultComplex complex;
+        SheetComplex complex;
         std::vector<double> trimmed;
         SeededComplex seeded;
-        std::vector<FaultMesh> skirts;
+        std::vector<TriMesh> skirts;
         std::vector<double> finest;  ///< size of triangles wanted, by surface
     };
 
     void repair();
     void screen(Candidate& candidate);
-    void drop_crumbs(std::vector<FaultMesh>& parts) const;
-    void drop_doubles(std::vector<FaultMesh>& parts) const;
+    void drop_crumbs(std::vector<TriMesh>& parts) const;
+    void drop_doubles(std::vector<TriMesh>& parts) const;
     void refuse(Candidate& candidate, const std::string& reason);
     [[nodiscard]] std::string text_of(const Vec3& place) const;  ///< its world coordinates
     static std::string described(const Candidate& candidate);
@@ -98,43 +99,43 @@ class FaultPreparer {
     [[nodiscard]] bool hurries() const { return attempts_ > patience; }
     void cut();
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
-    bool refuse_crossing(const FaultComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
+    bool refuse_crossing(const SheetComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
     void seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend = false) const;
     /// \pre The stage's name outlives what is returned.
     [[nodiscard]] Poll told(std::string_view stage, double fraction) const;
-    [[nodiscard]] std::vector<FaultMesh> skirts(const FaultComplex& complex, const EdgeTable& edges) const;
+    [[nodiscard]] std::vector<TriMesh> skirts(const SheetComplex& complex, const EdgeTable& edges) const;
 
     /// False when surfaces were refused that could not be sealed.
     bool seal(Pass& pass);
     /// The surfaces as faults, but for a domain's walls, and their numbers.
-    struct Barriers {
-        std::vector<Fault> faults;
+    struct Sealable {
+        std::vector<Barrier> barriers;
         std::vector<std::uint32_t> numbers;
     };
-    [[nodiscard]] Barriers barriers(const Pass& pass) const;
-    bool relax(std::vector<FaultSeal::Open>& open, int round);
-    bool refuse_leaking(const std::vector<FaultSeal::Open>& open, const std::vector<std::uint32_t>& numbers);
+    [[nodiscard]] Sealable sealable(const Pass& pass) const;
+    bool relax(std::vector<Seal::Open>& open, int round);
+    bool refuse_leaking(const std::vector<Seal::Open>& open, const std::vector<std::uint32_t>& numbers);
 
     /// A surface as a fault, and which triangles of its sheet are certified.
     struct Piece {
-        Fault fault;
+        Barrier barrier;
         std::vector<std::uint8_t> certified;
     };
     [[nodiscard]] Piece piece_of(const Pass& pass, std::uint32_t number) const;
-    void finish(const Pass& pass, FaultPreparation& result);
-    void collect(const Pass& pass, std::uint32_t number, FaultPreparation& result);
+    void finish(const Pass& pass, BarrierPreparation& result);
+    void collect(const Pass& pass, std::uint32_t number, BarrierPreparation& result);
 
     const std::vector<Surface>& surfaces_;
     const Box3& extent_;
     Box3 limit_;
     const Frame& frame_;
-    FaultScale scale_;
-    const FaultOptions& options_;
+    BarrierScale scale_;
+    const BarrierOptions& options_;
     const Progress& progress_;
     std::span<const Vec3> samples_;
     std::vector<Candidate> candidates_;
     CutSheets cut_;  ///< but for its complex, which the mesher has
-    std::unique_ptr<FaultMesher> mesher_;
+    std::unique_ptr<SheetMesher> mesher_;
     std::vector<Vec3> relaxed_;  ///< see SeedTask
     int passes_ = 0;             ///< of the mesher
     int seals_ = 0;

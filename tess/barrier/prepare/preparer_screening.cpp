@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FaultPreparer's first steps: what is taken from the surfaces as read.
+// BarrierPreparer's first steps: what is taken from the surfaces as read.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 
-#include "tess/error.hpp"
 #include "tess/barrier/complex/clip_sheet.hpp"
 #include "tess/barrier/complex/measure_sheet.hpp"
 #include "tess/barrier/prepare/preparer.hpp"
+#include "tess/error.hpp"
 
 namespace terratet {
 namespace {
@@ -30,17 +30,17 @@ double area_of_faces(const Box3& box) {
     return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-FaultMesh whole(const RepairedFault& repaired) {
-    FaultMesh mesh;
-    for (const FaultMesh& part : repaired.parts) {
+TriMesh whole(const RepairedSheet& repaired) {
+    TriMesh mesh;
+    for (const TriMesh& part : repaired.parts) {
         append(mesh, part);
     }
     return mesh;
 }
 
-double area_within(const RepairedFault& repaired, const Box3& extent) {
+double area_within(const RepairedSheet& repaired, const Box3& extent) {
     double sum = 0;
-    for (const FaultMesh& part : repaired.parts) {
+    for (const TriMesh& part : repaired.parts) {
         sum += area(cut_to_box(part, extent).inside);
     }
     return sum;
@@ -54,8 +54,8 @@ struct Crumple {
     double area = 0;
     Vec3 spanned;
 
-    explicit Crumple(const std::vector<FaultMesh>& parts) {
-        for (const FaultMesh& part : parts) {
+    explicit Crumple(const std::vector<TriMesh>& parts) {
+        for (const TriMesh& part : parts) {
             std::vector<Vec3> normals;
             for (const Triangle& t : part.triangles) {
                 const Vec3 own = area_vector(corners(part, t));
@@ -101,13 +101,13 @@ const char* advice_on_overlap(SurfaceKind with) {
 
 }  // namespace
 
-void FaultPreparer::repair() {
+void BarrierPreparer::repair() {
     double done = 0;
     for (const Surface& surface : surfaces_) {
         report_progress(progress_, "repairing faults", done++ / static_cast<double>(surfaces_.size()));
         Candidate candidate;
         candidate.surface = &surface;
-        candidate.repaired = repair_fault(surface, 1e-9 * std::max(extent_.diagonal(), 1e-3));
+        candidate.repaired = repair_sheet(surface, 1e-9 * std::max(extent_.diagonal(), 1e-3));
         screen(candidate);
         candidates_.push_back(std::move(candidate));
     }
@@ -118,8 +118,8 @@ void FaultPreparer::repair() {
     });
 }
 
-void FaultPreparer::screen(Candidate& candidate) {
-    FaultAccount& account = candidate.account;
+void BarrierPreparer::screen(Candidate& candidate) {
+    BarrierAccount& account = candidate.account;
     account.name = candidate.surface->name;
     account.kind = candidate.surface->kind;
     account.file = candidate.surface->file;
@@ -169,18 +169,18 @@ void FaultPreparer::screen(Candidate& candidate) {
 }
 
 /// What the spacing cannot show.
-void FaultPreparer::drop_crumbs(std::vector<FaultMesh>& parts) const {
+void BarrierPreparer::drop_crumbs(std::vector<TriMesh>& parts) const {
     std::erase_if(parts,
-                  [&](const FaultMesh& part) { return bounding_box(part.points).diagonal() < crumb * scale_.spacing; });
+                  [&](const TriMesh& part) { return bounding_box(part.points).diagonal() < crumb * scale_.spacing; });
 }
 
 /// Parts that run alongside a larger one of the same surface.
-void FaultPreparer::drop_doubles(std::vector<FaultMesh>& parts) const {
-    std::ranges::stable_sort(parts, std::greater{}, [](const FaultMesh& part) { return area(part); });
+void BarrierPreparer::drop_doubles(std::vector<TriMesh>& parts) const {
+    std::ranges::stable_sort(parts, std::greater{}, [](const TriMesh& part) { return area(part); });
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         const Alongside test(parts[i]);
         const auto doubles =
-            std::remove_if(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, parts.end(), [&](const FaultMesh& part) {
+            std::remove_if(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, parts.end(), [&](const TriMesh& part) {
                 return test.share_of(part, extent_, alternative * scale_.spacing) > alternative;
             });
         parts.erase(doubles, parts.end());
@@ -189,16 +189,16 @@ void FaultPreparer::drop_doubles(std::vector<FaultMesh>& parts) const {
 
 /// The largest first, bounds before all; one that mostly runs alongside another goes, unless it is a wall of the
 /// domain, which is as near to the next one as the outline has it.
-std::vector<FaultPreparer::Close> FaultPreparer::close_pairs() {
+std::vector<BarrierPreparer::Close> BarrierPreparer::close_pairs() {
     std::vector<std::size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) {
         return std::pair(is_bound(candidates_[k].surface->kind), candidates_[k].area_inside);
     });
-    std::vector<FaultMesh> meshes;
+    std::vector<TriMesh> meshes;
     std::vector<char> stays;
     for (const Candidate& candidate : candidates_) {
-        meshes.push_back(candidate.active ? whole(candidate.repaired) : FaultMesh{});
+        meshes.push_back(candidate.active ? whole(candidate.repaired) : TriMesh{});
         stays.push_back(candidate.active ? 1 : 0);
     }
     std::vector<Close> pairs;
@@ -227,7 +227,7 @@ std::vector<FaultPreparer::Close> FaultPreparer::close_pairs() {
     return pairs;
 }
 
-std::string FaultPreparer::reason_of(const Close& pair) const {
+std::string BarrierPreparer::reason_of(const Close& pair) const {
     const Candidate& larger = candidates_[pair.larger];
     if (!pair.apart) {
         return "overlaps " + described(larger) + advice_on_overlap(larger.surface->kind);
@@ -238,13 +238,13 @@ std::string FaultPreparer::reason_of(const Close& pair) const {
            " keeps both, and auto finds it; if they are versions of one fault, keep one of them";
 }
 
-void FaultPreparer::refuse_alternatives() {
+void BarrierPreparer::refuse_alternatives() {
     for (const Close& pair : close_pairs()) {
         refuse(candidates_[pair.smaller], reason_of(pair));
     }
 }
 
-double FaultPreparer::separating_spacing() {
+double BarrierPreparer::separating_spacing() {
     repair();
     std::vector<double> wanted{scale_.spacing};
     for (const Close& pair : close_pairs()) {
@@ -255,15 +255,15 @@ double FaultPreparer::separating_spacing() {
     return std::max({std::ranges::min(wanted), options_.width, 2 * options_.snap});
 }
 
-double FaultPreparer::seeds_at(double spacing) const {
+double BarrierPreparer::seeds_at(double spacing) const {
     double seeds = 0;
     for (const Candidate& candidate : candidates_) {
         seeds += candidate.active ? candidate.area_inside : 0;
     }
-    return seeds * (options_.mode == FaultMode::exact ? 4.7 : 2.4) / (spacing * spacing);
+    return seeds * (options_.mode == SeedMode::exact ? 4.7 : 2.4) / (spacing * spacing);
 }
 
-void FaultPreparer::check_budget() const {
+void BarrierPreparer::check_budget() const {
     const Candidate* largest = nullptr;
     for (const Candidate& candidate : candidates_) {
         if (candidate.active) {

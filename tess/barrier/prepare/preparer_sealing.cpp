@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FaultPreparer's last step: its seeds made tight.
+// BarrierPreparer's last step: its seeds made tight.
 #include <algorithm>
 #include <cmath>
 
@@ -14,20 +14,20 @@ constexpr int relaxations = 3;  ///< of certificates, before who cannot be seale
 
 }  // namespace
 
-FaultPreparer::Barriers FaultPreparer::barriers(const Pass& pass) const {
-    Barriers result;
+BarrierPreparer::Sealable BarrierPreparer::sealable(const Pass& pass) const {
+    Sealable result;
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
-        if (Piece piece = piece_of(pass, k); !piece.fault.sheet.triangles.empty()) {
-            result.faults.push_back(std::move(piece.fault));
+        if (Piece piece = piece_of(pass, k); !piece.barrier.sheet.triangles.empty()) {
+            result.barriers.push_back(std::move(piece.barrier));
             result.numbers.push_back(k);
         }
     }
     return result;
 }
 
-bool FaultPreparer::seal(Pass& pass) {
-    FaultSeal sealed;
-    Barriers all;
+bool BarrierPreparer::seal(Pass& pass) {
+    Seal sealed;
+    Sealable all;
     bool again = true;
     for (int round = 1; again; ++round) {
         const auto sealing = [&](double share) {
@@ -35,18 +35,18 @@ bool FaultPreparer::seal(Pass& pass) {
         };
         seed(
             pass, mesher_->sizes(), [&] { sealing(0); }, true);
-        all = barriers(pass);
-        if (all.faults.empty()) {
+        all = sealable(pass);
+        if (all.barriers.empty()) {
             return true;
         }
-        sealed = seal_faults(all.faults, extent_.grown(scale_.hull), frame_, sealing);
+        sealed = seal_sheets(all.barriers, extent_.grown(scale_.hull), frame_, sealing);
         ++seals_;
         again = relax(sealed.open, round);
         if (refuse_leaking(sealed.open, all.numbers)) {
             return false;
         }
     }
-    for (std::size_t f = 0; f < all.faults.size(); ++f) {
+    for (std::size_t f = 0; f < all.barriers.size(); ++f) {
         pass.seeded.seeds[all.numbers[f]] = std::move(sealed.seeds[f]);
         append(pass.skirts[all.numbers[f]], sealed.flakes[f]);
     }
@@ -64,16 +64,16 @@ bool FaultPreparer::seal(Pass& pass) {
 }
 
 /// Gives up certificates where seeds could not be sealed, and leaves those where that did not help. Anything given up?
-bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open, int round) {
-    if (options_.mode == FaultMode::paired || hurries() || round > relaxations) {
+bool BarrierPreparer::relax(std::vector<Seal::Open>& open, int round) {
+    if (options_.mode == SeedMode::paired || hurries() || round > relaxations) {
         return false;
     }
     const std::size_t before = relaxed_.size();
-    const auto is_relaxed = [&](const FaultSeal::Open& leak) {
+    const auto is_relaxed = [&](const Seal::Open& leak) {
         return std::any_of(relaxed_.begin(), relaxed_.begin() + static_cast<std::ptrdiff_t>(before),
                            [&](const Vec3& place) { return distance(place, leak.place) < 0.5 * scale_.spacing; });
     };
-    std::erase_if(open, [&](const FaultSeal::Open& leak) {
+    std::erase_if(open, [&](const Seal::Open& leak) {
         if (!is_relaxed(leak)) {
             relaxed_.push_back(leak.place);
             return true;
@@ -84,12 +84,11 @@ bool FaultPreparer::relax(std::vector<FaultSeal::Open>& open, int round) {
 }
 
 /// The smaller one of the two involved goes, but never a bound: where two of these leak, their accounts say so.
-bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
-                                   const std::vector<std::uint32_t>& numbers) {
+bool BarrierPreparer::refuse_leaking(const std::vector<Seal::Open>& open, const std::vector<std::uint32_t>& numbers) {
     const auto bounds = [](const Candidate& candidate) { return is_bound(candidate.surface->kind); };
     bool any = false;
-    for (const FaultSeal::Open& leak : open) {
-        Candidate& crossed = candidates_[numbers[leak.fault]];
+    for (const Seal::Open& leak : open) {
+        Candidate& crossed = candidates_[numbers[leak.barrier]];
         Candidate& other = candidates_[numbers[leak.owner]];
         const std::string place = text_of(leak.place);
         if (bounds(crossed) && bounds(other)) {
@@ -99,7 +98,7 @@ bool FaultPreparer::refuse_leaking(const std::vector<FaultSeal::Open>& open,
             const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
             const std::string reason = "cannot be sealed at " + place +
                                        ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
-                                       (options_.mode == FaultMode::paired ? " or the exact fault mode" : "");
+                                       (options_.mode == SeedMode::paired ? " or the exact fault mode" : "");
             Candidate& stays = crossed_stays ? crossed : other;
             refuse(crossed_stays ? other : crossed, reason);
             if (hurries() && stays.active && !bounds(stays)) {

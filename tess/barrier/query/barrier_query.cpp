@@ -23,37 +23,37 @@ constexpr double least_step = 1e-9;  ///< off a barrier, over the spacing
 
 /// What does not depend on what bars.
 struct Sheets {
-    explicit Sheets(std::span<const Fault> given);
+    explicit Sheets(std::span<const Barrier> given);
 
-    std::span<const Fault> faults;
+    std::span<const Barrier> barriers;
     std::vector<TriangleTree> trees;
     TriangleGrid zone;                       ///< sheets and margins, in the order of the faults
-    std::vector<std::int32_t> fault_of;      ///< of each triangle in the zone
+    std::vector<std::int32_t> barrier_of;    ///< of each triangle in the zone
     std::vector<double> squared_protection;  ///< of each triangle in the zone
     std::set<std::pair<std::int32_t, std::int32_t>> meeting;
 };
 
-Sheets::Sheets(std::span<const Fault> given) : faults(given) {
+Sheets::Sheets(std::span<const Barrier> given) : barriers(given) {
     std::vector<TriangleCorners> triangles;
     std::vector<double> reach;
-    for (const Fault& fault : faults) {
+    for (const Barrier& barrier : barriers) {
         const auto index = static_cast<std::int32_t>(trees.size());
-        for (const Surface* part : {&fault.sheet, &fault.margin}) {
+        for (const Surface* part : {&barrier.sheet, &barrier.margin}) {
             for (const Triangle& t : part->triangles) {
                 triangles.push_back({part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]});
             }
         }
-        for (const double radius : protection_radii(faults, static_cast<std::size_t>(index))) {
+        for (const double radius : protection_radii(barriers, static_cast<std::size_t>(index))) {
             reach.push_back(radius);
             squared_protection.push_back(radius * radius);
         }
-        fault_of.resize(triangles.size(), index);
-        trees.emplace_back(fault.sheet.vertices, fault.sheet.triangles);
+        barrier_of.resize(triangles.size(), index);
+        trees.emplace_back(barrier.sheet.vertices, barrier.sheet.triangles);
     }
     zone = TriangleGrid(std::move(triangles), reach);
     std::map<Vec3, std::vector<std::int32_t>> users;
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        for (const Vec3& p : faults[f].sheet.vertices) {
+    for (std::size_t f = 0; f < barriers.size(); ++f) {
+        for (const Vec3& p : barriers[f].sheet.vertices) {
             users[p].push_back(static_cast<std::int32_t>(f));
         }
     }
@@ -68,7 +68,7 @@ Sheets::Sheets(std::span<const Fault> given) : faults(given) {
 
 /// A fault that bars: its sheet, and what goes on from it.
 struct Bar {
-    std::size_t fault;
+    std::size_t barrier;
     const TriangleTree* sheet;
     TriangleTree beyond;
     std::vector<EdgePlace> rims;
@@ -76,88 +76,88 @@ struct Bar {
 
 }  // namespace
 
-struct FaultProximity::Impl {
-    Impl(std::shared_ptr<const Sheets> of, const std::vector<EstimationBarrier>& barriers, const Box3& inner)
+struct BarrierQuery::Impl {
+    Impl(std::shared_ptr<const Sheets> of, const std::vector<EstimationBarrier>& of_each, const Box3& inner)
         : sheets(std::move(of)), covered(inner) {
-        for (std::size_t f = 0; f < barriers.size(); ++f) {
-            if (barriers[f].bars) {
+        for (std::size_t f = 0; f < of_each.size(); ++f) {
+            if (of_each[f].bars) {
                 bars.push_back({f, &sheets->trees[f],
-                                TriangleTree(barriers[f].beyond.vertices, barriers[f].beyond.triangles),
-                                barriers[f].rims});
-                rims.add(barriers[f].rims, sheets->faults[f].spacing);
+                                TriangleTree(of_each[f].beyond.vertices, of_each[f].beyond.triangles),
+                                of_each[f].rims});
+                rims.add(of_each[f].rims, sheets->barriers[f].spacing);
             }
         }
         rims.finish();
     }
 
-    [[nodiscard]] const TriangleTree& tree(std::int32_t fault) const {
-        assert(fault >= 0 && static_cast<std::size_t>(fault) < sheets->trees.size());
-        return sheets->trees[static_cast<std::size_t>(fault)];
+    [[nodiscard]] const TriangleTree& tree(std::int32_t barrier) const {
+        assert(barrier >= 0 && static_cast<std::size_t>(barrier) < sheets->trees.size());
+        return sheets->trees[static_cast<std::size_t>(barrier)];
     }
 
     std::shared_ptr<const Sheets> sheets;
     std::vector<Bar> bars;
-    FaultRims rims;
-    Box3 covered;                          ///< what goes on beyond a sheet stays out of it: a convex place
-    std::unique_ptr<FaultProximity> hard;  ///< with the horizons among the barriers
-    std::vector<bool> hard_for;            ///< of each property
+    FreeRims rims;
+    Box3 covered;                        ///< what goes on beyond a sheet stays out of it: a convex place
+    std::unique_ptr<BarrierQuery> hard;  ///< with the horizons among the barriers
+    std::vector<bool> hard_for;          ///< of each property
     std::once_flag turns_wanted;
     RimTurns turns;
 };
 
-FaultProximity::FaultProximity(std::span<const Fault> faults) : FaultProximity(faults, sheets_as_barriers(faults)) {}
+BarrierQuery::BarrierQuery(std::span<const Barrier> barriers) : BarrierQuery(barriers, sheets_as_barriers(barriers)) {}
 
-FaultProximity::FaultProximity(std::span<const Fault> faults, const EstimationBarriers& barriers) {
-    const auto sheets = std::make_shared<const Sheets>(faults);
-    impl_ = std::make_unique<Impl>(sheets, barriers.soft, barriers.covered);
-    if (!barriers.hard.empty()) {
-        impl_->hard_for = barriers.hard_for;
-        impl_->hard = std::make_unique<FaultProximity>(
-            FaultProximity{std::make_unique<Impl>(sheets, barriers.hard, barriers.covered), Made{}});
+BarrierQuery::BarrierQuery(std::span<const Barrier> barriers, const EstimationBarriers& given) {
+    const auto sheets = std::make_shared<const Sheets>(barriers);
+    impl_ = std::make_unique<Impl>(sheets, given.soft, given.covered);
+    if (!given.hard.empty()) {
+        impl_->hard_for = given.hard_for;
+        impl_->hard = std::make_unique<BarrierQuery>(
+            BarrierQuery{std::make_unique<Impl>(sheets, given.hard, given.covered), Made{}});
     }
 }
 
-FaultProximity::FaultProximity(std::unique_ptr<Impl> impl, Made /*unused*/) : impl_(std::move(impl)) {}
+BarrierQuery::BarrierQuery(std::unique_ptr<Impl> impl, Made /*unused*/) : impl_(std::move(impl)) {}
 
-FaultProximity::~FaultProximity() = default;
-FaultProximity::FaultProximity(FaultProximity&&) noexcept = default;
-FaultProximity& FaultProximity::operator=(FaultProximity&&) noexcept = default;
+BarrierQuery::~BarrierQuery() = default;
+BarrierQuery::BarrierQuery(BarrierQuery&&) noexcept = default;
+BarrierQuery& BarrierQuery::operator=(BarrierQuery&&) noexcept = default;
 
-std::span<const Fault> FaultProximity::faults() const {
-    return impl_->sheets->faults;
+std::span<const Barrier> BarrierQuery::barriers() const {
+    return impl_->sheets->barriers;
 }
 
-bool FaultProximity::empty() const {
-    return impl_->sheets->faults.empty();
+bool BarrierQuery::empty() const {
+    return impl_->sheets->barriers.empty();
 }
 
-std::int32_t FaultProximity::protecting_fault(const Vec3& p) const {
+std::int32_t BarrierQuery::protecting_barrier(const Vec3& p) const {
     const Sheets& sheets = *impl_->sheets;
     for (const std::uint32_t i : sheets.zone.candidates(p)) {
         if (sheets.zone.squared_distance_to(i, p) < sheets.squared_protection[i]) {
-            return sheets.fault_of[i];
+            return sheets.barrier_of[i];
         }
     }
     return -1;
 }
 
-bool FaultProximity::crosses(std::int32_t fault, const Vec3& a, const Vec3& b) const {
-    return impl_->tree(fault).meets(a, b);
+bool BarrierQuery::crosses(std::int32_t barrier, const Vec3& a, const Vec3& b) const {
+    return impl_->tree(barrier).meets(a, b);
 }
 
-const FaultProximity& FaultProximity::seen_by(std::size_t property) const {
+const BarrierQuery& BarrierQuery::seen_by(std::size_t property) const {
     const bool hard = property < impl_->hard_for.size() && impl_->hard_for[property];
     return hard ? *impl_->hard : *this;
 }
 
-const FaultProximity& FaultProximity::with_horizons() const {
+const BarrierQuery& BarrierQuery::with_horizons() const {
     return impl_->hard ? *impl_->hard : *this;
 }
 
-bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except) const {
+bool BarrierQuery::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except) const {
     const bool within = impl_->covered.contains(a) && impl_->covered.contains(b);
     for (const Bar& bar : impl_->bars) {
-        if (static_cast<std::int32_t>(bar.fault) != except &&
+        if (static_cast<std::int32_t>(bar.barrier) != except &&
             (bar.sheet->meets(a, b) || (!within && bar.beyond.meets(a, b)))) {
             return true;
         }
@@ -165,28 +165,28 @@ bool FaultProximity::crosses_any(const Vec3& a, const Vec3& b, std::int32_t exce
     return false;
 }
 
-double FaultProximity::openness(const Vec3& a, const Vec3& b) const {
+double BarrierQuery::openness(const Vec3& a, const Vec3& b) const {
     return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
 }
 
-bool FaultProximity::bars(std::int32_t fault) const {
-    return std::ranges::find(impl_->bars, static_cast<std::size_t>(fault), &Bar::fault) != impl_->bars.end();
+bool BarrierQuery::bars(std::int32_t barrier) const {
+    return std::ranges::find(impl_->bars, static_cast<std::size_t>(barrier), &Bar::barrier) != impl_->bars.end();
 }
 
-const RimTurns& FaultProximity::turns() const {
+const RimTurns& BarrierQuery::turns() const {
     std::call_once(impl_->turns_wanted, [&] {
         std::vector<SheetRim> sheets;
         for (const Bar& bar : impl_->bars) {
-            sheets.push_back({&impl_->sheets->faults[bar.fault].sheet, bar.rims});
+            sheets.push_back({&impl_->sheets->barriers[bar.barrier].sheet, bar.rims});
         }
         impl_->turns = rim_turns(sheets, [&](const Vec3& a, const Vec3& b) { return !crosses_any(a, b); });
     });
     return impl_->turns;
 }
 
-Vec3 FaultProximity::off_barriers(const Vec3& p, std::int32_t fault, std::int8_t side) const {
+Vec3 BarrierQuery::off_barriers(const Vec3& p, std::int32_t barrier, std::int8_t side) const {
     if (impl_->hard) {
-        return impl_->hard->off_barriers(p, fault, side);
+        return impl_->hard->off_barriers(p, barrier, side);
     }
     if (!crosses_any(p, p)) {
         return p;
@@ -200,10 +200,10 @@ Vec3 FaultProximity::off_barriers(const Vec3& p, std::int32_t fault, std::int8_t
         if (normal == Vec3{}) {
             continue;
         }
-        const bool asked = side != 0 && (fault < 0 || static_cast<std::int32_t>(bar.fault) == fault);
+        const bool asked = side != 0 && (barrier < 0 || static_cast<std::int32_t>(bar.barrier) == barrier);
         way = way + (asked && side < 0 ? -1.0 : 1.0) / length(normal) * normal;
-        spacing = std::max(spacing, impl_->sheets->faults[bar.fault].spacing);
-        if (told == nullptr || (asked && fault >= 0)) {
+        spacing = std::max(spacing, impl_->sheets->barriers[bar.barrier].spacing);
+        if (told == nullptr || (asked && barrier >= 0)) {
             told = &bar;
             sign = asked && side < 0 ? -1 : 1;
         }
@@ -221,23 +221,23 @@ Vec3 FaultProximity::off_barriers(const Vec3& p, std::int32_t fault, std::int8_t
     return p;
 }
 
-bool FaultProximity::meet(std::int32_t fault, std::int32_t other) const {
-    return fault == other || impl_->sheets->meeting.contains({fault, other});
+bool BarrierQuery::meet(std::int32_t barrier, std::int32_t other) const {
+    return barrier == other || impl_->sheets->meeting.contains({barrier, other});
 }
 
-std::int8_t FaultProximity::side_of(std::int32_t fault, const Vec3& p) const {
-    return impl_->tree(fault).side_of(p);
+std::int8_t BarrierQuery::side_of(std::int32_t barrier, const Vec3& p) const {
+    return impl_->tree(barrier).side_of(p);
 }
 
-double FaultProximity::distance_to_sheet(std::int32_t fault, const Vec3& p) const {
-    return impl_->tree(fault).distance_to(p);
+double BarrierQuery::distance_to_sheet(std::int32_t barrier, const Vec3& p) const {
+    return impl_->tree(barrier).distance_to(p);
 }
 
-bool is_above_ground(const FaultProximity& faults, const Vec3& p) {
-    for (std::size_t f = 0; f < faults.faults().size(); ++f) {
-        const Surface& sheet = faults.faults()[f].sheet;
+bool is_above_ground(const BarrierQuery& barriers, const Vec3& p) {
+    for (std::size_t f = 0; f < barriers.barriers().size(); ++f) {
+        const Surface& sheet = barriers.barriers()[f].sheet;
         if (sheet.kind == SurfaceKind::topography && !sheet.triangles.empty() &&
-            faults.side_of(static_cast<std::int32_t>(f), p) > 0) {
+            barriers.side_of(static_cast<std::int32_t>(f), p) > 0) {
             return true;
         }
     }

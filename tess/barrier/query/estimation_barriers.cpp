@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tess/barrier/complex/margin.hpp"
+#include "tess/barrier/query/rim_starts.hpp"
 #include "tess/base/triangle_tree.hpp"
 
 namespace terratet {
@@ -19,88 +20,13 @@ constexpr double hold = 0.5;               ///< of a step: a surface that far of
 constexpr double flat = 1e-3;              ///< over the spacing: rows as near to a straight way are left out
 constexpr double far = 3;                  ///< over the diagonal of all: the last row
 
-EdgePlace sorted(const Vec3& a, const Vec3& b) {
-    return a < b ? EdgePlace{a, b} : EdgePlace{b, a};
-}
-
-/// Of the sheets that are asked for, how many triangles an edge has.
-using EdgeUses = std::map<EdgePlace, int>;
-template <class Which>
-EdgeUses edge_uses(std::span<const Fault> faults, const Which& which) {
-    EdgeUses uses;
-    for (const Fault& fault : faults) {
-        for (const Triangle& t : which(fault) ? fault.sheet.triangles : std::vector<Triangle>{}) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                ++uses[sorted(fault.sheet.vertices[t[i]], fault.sheet.vertices[t[(i + 1) % 3]])];
-            }
-        }
-    }
-    return uses;
-}
-
-bool bars(const Fault& fault, bool horizons) {
-    return fault.sheet.kind == SurfaceKind::fault || (horizons && fault.sheet.kind == SurfaceKind::horizon);
-}
-
-/// The outward directions of the box's faces that hold both.
-std::vector<Vec3> faces_with(const Box3& box, const Vec3& a, const Vec3& b) {
-    std::vector<Vec3> faces;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double sign : {-1.0, 1.0}) {
-            const double at = sign < 0 ? box.lo[axis] : box.hi[axis];
-            const double tolerance = 1e-9 * (std::abs(at) + box.size()[axis]);
-            if (std::abs(a[axis] - at) <= tolerance && std::abs(b[axis] - at) <= tolerance) {
-                Vec3 face;
-                face[axis] = sign;
-                faces.push_back(face);
-            }
-        }
-    }
-    return faces;
-}
-
 TriangleTree tree_of(const Surface& surface) {
     return {surface.vertices, surface.triangles};
 }
 
-/// A place in a rim from which barriers go on.
-struct Start {
-    struct Use {
-        std::size_t fault = 0;
-        Vec3 normal;    ///< of its sheet
-        Vec3 way;       ///< sum of the edges' ways on, in the sheet's tangent plane
-        int edges = 0;  ///< of the rim that goes on
-    };
-    Vec3 position;
-    std::vector<Use> uses;
-    std::vector<Vec3> rows;  ///< from the position on; empty: not made yet
-    Vec3 last;               ///< the last row, far away or where the way ended
-
-    Use& use(std::size_t fault) {
-        const auto found = std::ranges::find(uses, fault, &Use::fault);
-        return found != uses.end() ? *found : uses.emplace_back(Use{fault, {}, {}, 0});
-    }
-    [[nodiscard]] bool is_of(std::size_t fault) const {
-        return std::ranges::find(uses, fault, &Use::fault) != uses.end();
-    }
-
-    /// Straight on; where sheets meet, along the line in which they do.
-    [[nodiscard]] Vec3 way() const {
-        Vec3 sum;
-        for (const Use& use : uses) {
-            sum = sum + unit(use.way);
-        }
-        sum = unit(sum);
-        if (uses.size() > 1) {
-            const Vec3 along = cross(unit(uses[0].normal), unit(uses[1].normal));
-            const double heading = dot(unit(along), sum);
-            if (length(along) > 0.1 && std::abs(heading) > 0.2) {
-                return heading < 0 ? -unit(along) : unit(along);
-            }
-        }
-        return sum;
-    }
-};
+bool bars(const Barrier& barrier, bool horizons) {
+    return barrier.sheet.kind == SurfaceKind::fault || (horizons && barrier.sheet.kind == SurfaceKind::horizon);
+}
 
 /// A fault on its way.
 struct Going {
@@ -115,18 +41,18 @@ struct Going {
 
 class Continuation {
   public:
-    Continuation(const Site& site, const Domain& domain, std::span<const Fault> faults, bool horizons)
-        : site_(site), faults_(faults), extent_(domain.extent) {
+    Continuation(const Site& site, const Domain& domain, std::span<const Barrier> barriers, bool horizons)
+        : site_(site), barriers_(barriers), extent_(domain.extent) {
         reach_ = bounding_box(site.samples.positions);
         if (!domain.hull.empty()) {
             reach_.extend(domain.hull.lo);
             reach_.extend(domain.hull.hi);
         }
-        for (const Fault& fault : faults) {
-            barriers_.push_back({bars(fault, horizons), {}, {}});
-            spacing_ = std::max(spacing_, fault.spacing);
+        for (const Barrier& barrier : barriers) {
+            bars_.push_back({bars(barrier, horizons), {}, {}});
+            spacing_ = std::max(spacing_, barrier.spacing);
         }
-        going_.resize(barriers_.size());
+        going_.resize(bars_.size());
         find_rims();
     }
 
@@ -134,7 +60,7 @@ class Continuation {
         prepare();
         for (std::size_t count = 0; count < going_.size(); ++count) {
             const std::size_t f = next();
-            for (Start* start : starts_of(f)) {
+            for (RimStart* start : starts_of(f)) {
                 if (start->rows.empty()) {
                     march(*start, f);
                 }
@@ -144,28 +70,29 @@ class Continuation {
         }
         const std::vector<std::size_t> rows = rows_that_count();
         for (std::size_t f = 0; f < going_.size(); ++f) {
-            barriers_[f].beyond = strips(f, rows);
+            bars_[f].beyond = strips(f, rows);
             add_tips(f, rows);
         }
-        return std::move(barriers_);
+        return std::move(bars_);
     }
 
     [[nodiscard]] bool within() const { return within_; }
 
   private:
     void find_rims() {
-        const EdgeUses uses = edge_uses(faults_, [&](const Fault& fault) {
-            return barriers_[static_cast<std::size_t>(&fault - faults_.data())].bars;
+        const EdgeUses uses = edge_uses(barriers_, [&](const Barrier& barrier) {
+            return bars_[static_cast<std::size_t>(&barrier - barriers_.data())].bars;
         });
-        const EdgeUses bounds = edge_uses(faults_, [](const Fault& fault) { return is_bound(fault.sheet.kind); });
+        const EdgeUses bounds =
+            edge_uses(barriers_, [](const Barrier& barrier) { return is_bound(barrier.sheet.kind); });
         std::map<EdgePlace, std::vector<std::size_t>> inside;  // an edge between two triangles of a sheet: that sheet
-        std::vector<std::vector<EdgePlace>> ends(barriers_.size());
-        for (std::size_t f = 0; f < barriers_.size(); ++f) {
-            if (!barriers_[f].bars) {
+        std::vector<std::vector<EdgePlace>> ends(bars_.size());
+        for (std::size_t f = 0; f < bars_.size(); ++f) {
+            if (!bars_[f].bars) {
                 continue;
             }
-            const Surface& sheet = faults_[f].sheet;
-            const FaultMesh mesh{sheet.vertices, sheet.triangles};
+            const Surface& sheet = barriers_[f].sheet;
+            const TriMesh mesh{sheet.vertices, sheet.triangles};
             const std::vector<RimEdge> rim = rim_edges(mesh);
             const std::vector<Vec3> normals = rim_normals(mesh, rim);
             for (const RimEdge& e : rim) {
@@ -173,10 +100,10 @@ class Continuation {
                 if (uses.at(edge) > 1) {
                     ends[f].push_back(edge);
                 } else if (!goes_on(f, mesh, e, normals, bounds.contains(edge))) {
-                    barriers_[f].rims.push_back(edge);
+                    bars_[f].rims.push_back(edge);
                 }
             }
-            for (const auto& [edge, count] : edge_uses({&faults_[f], 1}, [](const Fault&) { return true; })) {
+            for (const auto& [edge, count] : edge_uses({&barriers_[f], 1}, [](const Barrier&) { return true; })) {
                 if (count > 1 && uses.at(edge) > count) {
                     inside[edge].push_back(f);
                 }
@@ -192,7 +119,7 @@ class Continuation {
     }
 
     /// Notes how the rim's edge goes on, if it does.
-    bool goes_on(std::size_t f, const FaultMesh& mesh, const RimEdge& e, const std::vector<Vec3>& normals,
+    bool goes_on(std::size_t f, const TriMesh& mesh, const RimEdge& e, const std::vector<Vec3>& normals,
                  bool at_bound) {
         const Vec3& a = mesh.points[e.from];
         const Vec3& b = mesh.points[e.to];
@@ -212,8 +139,8 @@ class Continuation {
             if (way == Vec3{}) {
                 way = unit(cross(b - a, normal));
             }
-            Start& start = starts_.try_emplace(mesh.points[v], Start{mesh.points[v], {}, {}, {}}).first->second;
-            Start::Use& use = start.use(f);
+            RimStart& start = starts_.try_emplace(mesh.points[v], RimStart{mesh.points[v], {}, {}, {}}).first->second;
+            RimStart::Use& use = start.use(f);
             use.normal = normal;
             use.way = use.way + length(b - a) * way;
             ++use.edges;
@@ -226,10 +153,10 @@ class Continuation {
             if (going_[f].edges.empty()) {
                 continue;
             }
-            const Fault& fault = faults_[f];
+            const Barrier& barrier = barriers_[f];
             Surface read;
             for (const Surface& surface : site_.surfaces) {
-                if (surface.name == fault.name && surface.kind == fault.sheet.kind) {
+                if (surface.name == barrier.name && surface.kind == barrier.sheet.kind) {
                     const auto first = static_cast<std::uint32_t>(read.vertices.size());
                     read.vertices.insert(read.vertices.end(), surface.vertices.begin(), surface.vertices.end());
                     for (const Triangle& t : surface.triangles) {
@@ -238,8 +165,8 @@ class Continuation {
                 }
             }
             going_[f].read = tree_of(read);
-            going_[f].margin = tree_of(fault.margin);
-            going_[f].sheet = tree_of(fault.sheet);
+            going_[f].margin = tree_of(barrier.margin);
+            going_[f].sheet = tree_of(barrier.sheet);
         }
     }
 
@@ -258,8 +185,8 @@ class Continuation {
         return first;
     }
 
-    std::vector<Start*> starts_of(std::size_t f) {
-        std::vector<Start*> starts;
+    std::vector<RimStart*> starts_of(std::size_t f) {
+        std::vector<RimStart*> starts;
         for (auto& [position, start] : starts_) {
             if (start.is_of(f)) {
                 starts.push_back(&start);
@@ -268,7 +195,7 @@ class Continuation {
         return starts;
     }
 
-    void march(Start& start, std::size_t f) {
+    void march(RimStart& start, std::size_t f) {
         Vec3 way = start.way();
         Vec3 p = start.position;
         start.rows = {p};
@@ -305,12 +232,12 @@ class Continuation {
     }
 
     /// Moves a place onto the surfaces that it belongs to, where they are near.
-    bool hold_on(const Start& start, bool in_margin, Vec3& place, double step) const {
+    bool hold_on(const RimStart& start, bool in_margin, Vec3& place, double step) const {
         bool held = false;
         Vec3 at = place;
         for (int round = 0; round < (start.uses.size() > 1 ? 4 : 1); ++round) {
-            for (const Start::Use& use : start.uses) {
-                const Going& going = going_[use.fault];
+            for (const RimStart::Use& use : start.uses) {
+                const Going& going = going_[use.barrier];
                 const auto foot = (in_margin ? going.margin : going.read).nearest_to(at);
                 if (foot && distance(*foot, place) <= hold * step) {
                     at = *foot;
@@ -323,7 +250,7 @@ class Continuation {
     }
 
     /// Ends a step at the first barrier of another fault that it may not cross.
-    bool stopped(const Start& start, std::size_t f, bool held, const Vec3& p, Vec3& q) const {
+    bool stopped(const RimStart& start, std::size_t f, bool held, const Vec3& p, Vec3& q) const {
         bool any = false;
         for (std::size_t g = 0; g < going_.size(); ++g) {
             const Going& other = going_[g];
@@ -346,7 +273,7 @@ class Continuation {
         return any;
     }
 
-    [[nodiscard]] static const Vec3& row_of(const Start& start, std::size_t row, bool last) {
+    [[nodiscard]] static const Vec3& row_of(const RimStart& start, std::size_t row, bool last) {
         return last ? start.last : start.rows[std::min(row, start.rows.size() - 1)];
     }
 
@@ -369,7 +296,7 @@ class Continuation {
     /// All but those between whose neighbours every way is straight: the same ones of all faults, which share ways.
     [[nodiscard]] std::vector<std::size_t> rows_that_count() const {
         const std::size_t count = row_count();
-        const auto straight = [&](const Start& start, std::size_t from, std::size_t to) {
+        const auto straight = [&](const RimStart& start, std::size_t from, std::size_t to) {
             const Vec3 a = row_of(start, from, false);
             const Vec3 ab = row_of(start, to, to == count) - a;
             for (std::size_t row = from + 1; row < to; ++row) {
@@ -393,7 +320,7 @@ class Continuation {
 
     /// The strips between the ways from the ends of each edge, by way of the given rows to the last.
     [[nodiscard]] Surface strips(std::size_t f, const std::vector<std::size_t>& rows) const {
-        Surface surface{faults_[f].name, faults_[f].sheet.kind, {}, {}, {}};
+        Surface surface{barriers_[f].name, barriers_[f].sheet.kind, {}, {}, {}};
         std::map<Vec3, std::uint32_t> number;
         const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
             if (a == b || b == c || c == a) {
@@ -409,8 +336,8 @@ class Continuation {
             }
         };
         for (const auto& [from, to] : going_[f].edges) {
-            const Start& start = starts_.at(from);
-            const Start& other = starts_.at(to);
+            const RimStart& start = starts_.at(from);
+            const RimStart& other = starts_.at(to);
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const bool last = i + 1 == rows.size();
                 const Vec3& a = row_of(start, rows[i], false);
@@ -426,67 +353,67 @@ class Continuation {
 
     /// Where a fault's end meets the face it goes on as well.
     void add_tips(std::size_t f, const std::vector<std::size_t>& rows) {
-        for (const Start* start : starts_of(f)) {
+        for (const RimStart* start : starts_of(f)) {
             if (start->uses.size() > 1 || start->uses[0].edges != 1) {
                 continue;
             }
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const bool last = i + 1 == rows.size();
-                barriers_[f].rims.push_back(
+                bars_[f].rims.push_back(
                     sorted(row_of(*start, rows[i], false), row_of(*start, last ? 0 : rows[i + 1], last)));
             }
         }
     }
 
     const Site& site_;
-    std::span<const Fault> faults_;
+    std::span<const Barrier> barriers_;
     Box3 extent_;
     Box3 reach_;
     double spacing_ = 0;
-    std::vector<EstimationBarrier> barriers_;
+    std::vector<EstimationBarrier> bars_;
     std::vector<Going> going_;
-    std::map<Vec3, Start> starts_;
+    std::map<Vec3, RimStart> starts_;
     bool within_ = false;  ///< something goes on within the extent
 };
 
 }  // namespace
 
-EstimationBarriers sheets_as_barriers(std::span<const Fault> faults) {
-    const EdgeUses uses = edge_uses(faults, [](const Fault& fault) { return bars(fault, false); });
-    EstimationBarriers barriers;
-    for (const Fault& fault : faults) {
-        EstimationBarrier& barrier = barriers.soft.emplace_back(EstimationBarrier{bars(fault, false), {}, {}});
-        for (const Triangle& t : barrier.bars ? fault.sheet.triangles : std::vector<Triangle>{}) {
+EstimationBarriers sheets_as_barriers(std::span<const Barrier> barriers) {
+    const EdgeUses uses = edge_uses(barriers, [](const Barrier& barrier) { return bars(barrier, false); });
+    EstimationBarriers made;
+    for (const Barrier& barrier : barriers) {
+        EstimationBarrier& bar = made.soft.emplace_back(EstimationBarrier{bars(barrier, false), {}, {}});
+        for (const Triangle& t : bar.bars ? barrier.sheet.triangles : std::vector<Triangle>{}) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const EdgePlace edge = sorted(fault.sheet.vertices[t[i]], fault.sheet.vertices[t[(i + 1) % 3]]);
+                const EdgePlace edge = sorted(barrier.sheet.vertices[t[i]], barrier.sheet.vertices[t[(i + 1) % 3]]);
                 if (uses.at(edge) == 1) {
-                    barrier.rims.push_back(edge);
+                    bar.rims.push_back(edge);
                 }
             }
         }
     }
-    return barriers;
+    return made;
 }
 
-EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Fault> faults) {
-    EstimationBarriers barriers;
-    Continuation soft(site, domain, faults, false);
+EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Barrier> barriers) {
+    EstimationBarriers made;
+    Continuation soft(site, domain, barriers, false);
     const bool within = soft.within();
-    barriers.soft = soft.run();
-    barriers.covered = within ? Box3{} : domain.extent;
+    made.soft = soft.run();
+    made.covered = within ? Box3{} : domain.extent;
     for (const Property& property : site.properties) {
-        barriers.hard_for.push_back(property.hard_horizons);
+        made.hard_for.push_back(property.hard_horizons);
     }
-    const bool horizons =
-        std::ranges::any_of(faults, [](const Fault& fault) { return fault.sheet.kind == SurfaceKind::horizon; });
+    const bool horizons = std::ranges::any_of(
+        barriers, [](const Barrier& barrier) { return barrier.sheet.kind == SurfaceKind::horizon; });
     if (horizons && std::ranges::any_of(site.properties, &Property::hard_horizons)) {
-        Continuation hard(site, domain, faults, true);
-        barriers.covered = hard.within() ? Box3{} : barriers.covered;
-        barriers.hard = hard.run();
+        Continuation hard(site, domain, barriers, true);
+        made.covered = hard.within() ? Box3{} : made.covered;
+        made.hard = hard.run();
     } else {
-        barriers.hard_for.clear();
+        made.hard_for.clear();
     }
-    return barriers;
+    return made;
 }
 
 }  // namespace terratet

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "tess/barrier.hpp"
-#include "tess/domain.hpp"
 #include "tess/barrier/complex/rims.hpp"
+#include "tess/domain.hpp"
 #include "tess/site.hpp"
 
 namespace terratet {
@@ -37,10 +37,10 @@ struct EstimationBarriers {
 };
 
 /// Sheets of faults alone, ending where they end.
-EstimationBarriers sheets_as_barriers(std::span<const Fault> faults);
+EstimationBarriers sheets_as_barriers(std::span<const Barrier> barriers);
 
 /// Of a site's faults, prepared within the domain. O(triangles), and a few hundred rows from each rim where a surface
 /// goes on beyond the extent.
-EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Fault> faults);
+EstimationBarriers estimation_barriers(const Site& site, const Domain& domain, std::span<const Barrier> barriers);
 
 }  // namespace terratet

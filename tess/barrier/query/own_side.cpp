@@ -15,15 +15,15 @@ constexpr double beside = 1e-6;          ///< of an edge, short of its ends
 
 }  // namespace
 
-bool are_parted(const FaultProximity& faults, const Vec3& a, const Vec3& b) {
+bool are_parted(const BarrierQuery& barriers, const Vec3& a, const Vec3& b) {
     const Vec3 short_of_end = beside * (b - a);
-    return faults.crosses_any(a + short_of_end, b - short_of_end);
+    return barriers.crosses_any(a + short_of_end, b - short_of_end);
 }
 
-OwnSide::OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const FaultProximity& faults,
+OwnSide::OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const BarrierQuery& barriers,
                  const Box3& extent)
-    : mesh_(mesh), gap_(gap), across_(mesh.cells.size(), 0), faults_(faults) {
-    for (std::size_t c = 0; c < (faults.empty() || extent.empty() ? 0 : mesh.cells.size()); ++c) {
+    : mesh_(mesh), gap_(gap), across_(mesh.cells.size(), 0), barriers_(barriers) {
+    for (std::size_t c = 0; c < (barriers.empty() || extent.empty() ? 0 : mesh.cells.size()); ++c) {
         const auto& v = mesh.cells[c];
         if (gap[c] >= 0 ||
             std::ranges::all_of(v, [&](std::uint32_t corner) { return extent.contains(mesh.points[corner]); })) {
@@ -31,7 +31,7 @@ OwnSide::OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const F
         }
         for (std::size_t i = 1; i < 4 && across_[c] == 0; ++i) {
             for (std::size_t j = 0; j < i && across_[c] == 0; ++j) {
-                across_[c] = are_parted(faults, mesh.points[v[i]], mesh.points[v[j]]) ? 1 : 0;
+                across_[c] = are_parted(barriers, mesh.points[v[i]], mesh.points[v[j]]) ? 1 : 0;
             }
         }
     }
@@ -39,11 +39,11 @@ OwnSide::OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const F
 
 VertexWeights OwnSide::weights(std::uint32_t cell, const Vec3& place, std::array<double, 4> barycentric) const {
     const auto& corners = mesh_.cells[cell];
-    const Vec3 p = faults_.off_barriers(place);
+    const Vec3 p = barriers_.off_barriers(place);
     double sum = 0;
     std::size_t nearest = 4;
     for (std::size_t k = 0; k < 4; ++k) {
-        if (faults_.crosses_any(p, mesh_.points[corners[k]])) {
+        if (barriers_.crosses_any(p, mesh_.points[corners[k]])) {
             barycentric[k] = 0;
             continue;
         }
@@ -83,7 +83,7 @@ VertexWeights OwnSide::nearest_seen_around(std::uint32_t cell, const Vec3& p) co
             const double away = squared_distance(p, mesh_.points[v]);
             if (away < least && std::ranges::find(tried, v) == tried.end()) {
                 tried.push_back(v);
-                if (!faults_.crosses_any(p, mesh_.points[v])) {
+                if (!barriers_.crosses_any(p, mesh_.points[v])) {
                     least = away;
                     found = {{v, v, v, v}, {1, 0, 0, 0}};
                 }

@@ -21,21 +21,21 @@ struct VertexWeights {
 };
 
 /// Does a barrier part the two ends of an edge? An end that lies on one, as a collapsed fault's nodes do, is beside it.
-bool are_parted(const FaultProximity& faults, const Vec3& a, const Vec3& b);
+bool are_parted(const BarrierQuery& barriers, const Vec3& a, const Vec3& b);
 
 class OwnSide {
   public:
     /// `gap` is CellTable::fault of the mesh. Beyond the extent, where no seeds keep the sides apart, any cell may
     /// reach across a barrier: each that reaches beyond is looked at; none if no extent is given. \pre All outlive
     /// this.
-    OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const FaultProximity& faults,
+    OwnSide(const TetMesh& mesh, std::span<const std::int32_t> gap, const BarrierQuery& barriers,
             const Box3& extent = {});
 
     /// Is it a gap cell, one where faults meet included, or one that reaches across a barrier beyond the extent?
     [[nodiscard]] bool concerns(std::uint32_t cell) const { return gap_[cell] >= 0 || across_[cell] != 0; }
 
     /// The barycentric weights of a place in a cell, those of corners that it does not see left out and the others
-    /// brought to the sum 1. On a fault itself it is that of the + side (FaultProximity::off_barriers). Where it sees
+    /// brought to the sum 1. On a fault itself it is that of the + side (BarrierQuery::off_barriers). Where it sees
     /// none otherwise, the nearest one it sees of the cells around. Sight is blocked by what bars estimation, by exact
     /// predicates; not by horizons and other surfaces that bar nothing. Safe from many threads.
     [[nodiscard]] VertexWeights weights(std::uint32_t cell, const Vec3& p, std::array<double, 4> barycentric) const;
@@ -46,7 +46,7 @@ class OwnSide {
     const TetMesh& mesh_;
     std::span<const std::int32_t> gap_;
     std::vector<char> across_;  ///< of each cell: reaches across a barrier beyond the extent
-    const FaultProximity& faults_;
+    const BarrierQuery& barriers_;
 };
 
 }  // namespace terratet

@@ -39,10 +39,10 @@ double covered_by_corners(const TriangleCorners& t) {
 /// Half the width between the two seeds of a fault over a place; negative where there is no such pair.
 class PairWidths {
   public:
-    explicit PairWidths(const Fault& fault)
-        : tolerance_(same_place * fault.spacing), grid_(middles(fault), fault.spacing) {
-        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
-            half_.push_back(0.5 * distance(fault.seeds[k].position, fault.seeds[k + 1].position));
+    explicit PairWidths(const Barrier& barrier)
+        : tolerance_(same_place * barrier.spacing), grid_(middles(barrier), barrier.spacing) {
+        for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
+            half_.push_back(0.5 * distance(barrier.seeds[k].position, barrier.seeds[k + 1].position));
         }
     }
 
@@ -52,10 +52,10 @@ class PairWidths {
     }
 
   private:
-    static std::vector<Vec3> middles(const Fault& fault) {
+    static std::vector<Vec3> middles(const Barrier& barrier) {
         std::vector<Vec3> result;
-        for (std::size_t k = 0; k + 1 < fault.seeds.size(); k += 2) {
-            result.push_back(0.5 * (fault.seeds[k].position + fault.seeds[k + 1].position));
+        for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
+            result.push_back(0.5 * (barrier.seeds[k].position + barrier.seeds[k + 1].position));
         }
         return result;
     }
@@ -65,10 +65,10 @@ class PairWidths {
     SeedGrid grid_;
 };
 
-std::vector<Vec3> seeds_of_others(std::span<const Fault> faults, std::size_t fault) {
+std::vector<Vec3> seeds_of_others(std::span<const Barrier> barriers, std::size_t barrier) {
     std::vector<Vec3> seeds;
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        for (const Seed& seed : f == fault ? std::vector<Seed>{} : faults[f].seeds) {
+    for (std::size_t f = 0; f < barriers.size(); ++f) {
+        for (const Seed& seed : f == barrier ? std::vector<Seed>{} : barriers[f].seeds) {
             seeds.push_back(seed.position);
         }
     }
@@ -77,8 +77,8 @@ std::vector<Vec3> seeds_of_others(std::span<const Fault> faults, std::size_t fau
 
 }  // namespace
 
-std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t fault) {
-    const Fault& own = faults[fault];
+std::vector<double> protection_radii(std::span<const Barrier> barriers, std::size_t barrier) {
+    const Barrier& own = barriers[barrier];
     std::vector<double> radii(own.sheet.triangles.size() + own.margin.triangles.size(), own.protection_radius);
     const double bare = std::hypot(own.covering_radius, own.width / 2);
     if (!own.refined || own.seeds.empty() || !(own.covering_radius > 0) || own.protection_radius < bare * (1 - 1e-9)) {
@@ -103,7 +103,7 @@ std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t 
             smaller.emplace_back(t, (c[0] + c[1] + c[2]) / 3);
         }
     }
-    const std::vector<Vec3> others = smaller.empty() ? std::vector<Vec3>{} : seeds_of_others(faults, fault);
+    const std::vector<Vec3> others = smaller.empty() ? std::vector<Vec3>{} : seeds_of_others(barriers, barrier);
     if (!others.empty()) {
         const double near = neighbourhood * own.spacing;
         const SeedGrid grid(others, near);

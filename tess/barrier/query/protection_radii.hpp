@@ -15,6 +15,6 @@ namespace terratet {
 /// The protection radius of each triangle of a fault, its sheet's and then its margin's: the fault's own, or less where
 /// the triangle's corners are base points that are nearer together. It is the fault's own where the seeds of another
 /// fault are near: that these do not let edges slip through was seen to with that radius.
-std::vector<double> protection_radii(std::span<const Fault> faults, std::size_t fault);
+std::vector<double> protection_radii(std::span<const Barrier> barriers, std::size_t barrier);
 
 }  // namespace terratet

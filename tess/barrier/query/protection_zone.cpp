@@ -15,16 +15,16 @@ constexpr double beyond = 1 + 1e-5;  ///< of the radius: just out of the zone
 
 }  // namespace
 
-FaultZone::FaultZone(std::span<const Fault> faults) {
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        const std::vector<double> radii = protection_radii(faults, f);
+ProtectionZone::ProtectionZone(std::span<const Barrier> barriers) {
+    for (std::size_t f = 0; f < barriers.size(); ++f) {
+        const std::vector<double> radii = protection_radii(barriers, f);
         auto radius = radii.begin();
-        for (const Surface* part : {&faults[f].sheet, &faults[f].margin}) {
+        for (const Surface* part : {&barriers[f].sheet, &barriers[f].margin}) {
             for (const Triangle& t : part->triangles) {
                 balls_.push_back({{part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]},
                                   *radius++,
                                   static_cast<std::uint32_t>(f),
-                                  part == &faults[f].sheet});
+                                  part == &barriers[f].sheet});
             }
         }
     }
@@ -36,7 +36,7 @@ FaultZone::FaultZone(std::span<const Fault> faults) {
     }
 }
 
-void FaultZone::split(std::uint32_t begin, std::uint32_t end) {
+void ProtectionZone::split(std::uint32_t begin, std::uint32_t end) {
     const auto here = nodes_.size();
     Node node{{}, 0, begin, end, 0};
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -62,7 +62,7 @@ void FaultZone::split(std::uint32_t begin, std::uint32_t end) {
     split(middle, end);
 }
 
-bool FaultZone::contains(const Vec3& p) const {
+bool ProtectionZone::contains(const Vec3& p) const {
     return visit([&](const Node& node) { return squared_distance(p, node.box.clamped(p)) < node.radius * node.radius; },
                  [&](const Ball& ball) {
                      const auto& c = ball.corners;
@@ -72,7 +72,7 @@ bool FaultZone::contains(const Vec3& p) const {
 }
 
 /// Away from the triangle whose zone it is deepest in, again and again.
-std::optional<Vec3> FaultZone::pushed_out(Vec3 p) const {
+std::optional<Vec3> ProtectionZone::pushed_out(Vec3 p) const {
     for (int step = 0; step < most_steps; ++step) {
         double deepest_in = 0;
         Vec3 next;

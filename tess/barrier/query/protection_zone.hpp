@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// Internal: the protection zone of prepared faults, asked very often: the same places as
-/// FaultProximity::protecting_fault, but what one question costs hardly grows where triangles are small and many.
+/// BarrierQuery::protecting_fault, but what one question costs hardly grows where triangles are small and many.
 
 #include <array>
 #include <limits>
@@ -16,9 +16,9 @@
 
 namespace terratet {
 
-class FaultZone {
+class ProtectionZone {
   public:
-    explicit FaultZone(std::span<const Fault> faults);
+    explicit ProtectionZone(std::span<const Barrier> barriers);
 
     /// Nearer to a triangle of a sheet or margin than its protection radius?
     [[nodiscard]] bool contains(const Vec3& p) const;
@@ -32,7 +32,7 @@ class FaultZone {
     struct Ball {  ///< what is kept about a triangle
         TriangleCorners corners{};
         double radius = 0;
-        std::uint32_t fault = 0;
+        std::uint32_t barrier = 0;
         bool sheet = true;  ///< or margin
     };
     /// Is the test true of one of those whose triangle is nearer to p than that? Asked until it is.

@@ -41,16 +41,16 @@ std::optional<double> parting(std::vector<double>& places) {
 
 }  // namespace
 
-FaultCrossings::FaultCrossings(std::span<const Fault> faults, const Box3& extent, const std::vector<char>& selected,
+SheetCrossings::SheetCrossings(std::span<const Barrier> barriers, const Box3& extent, const std::vector<char>& selected,
                                double longest)
     : extent_(extent) {
     std::vector<TriangleCorners> triangles;
-    for (std::size_t f = 0; f < faults.size(); ++f) {
-        for (const Surface* part : {&faults[f].sheet, &faults[f].margin}) {
+    for (std::size_t f = 0; f < barriers.size(); ++f) {
+        for (const Surface* part : {&barriers[f].sheet, &barriers[f].margin}) {
             for (const Triangle& t : part->triangles) {
                 if (selected[f] != 0) {
                     triangles.push_back({part->vertices[t[0]], part->vertices[t[1]], part->vertices[t[2]]});
-                    owner_.push_back({static_cast<std::int32_t>(f), part == &faults[f].margin});
+                    owner_.push_back({static_cast<std::int32_t>(f), part == &barriers[f].margin});
                 }
             }
         }
@@ -59,7 +59,7 @@ FaultCrossings::FaultCrossings(std::span<const Fault> faults, const Box3& extent
     triangles_ = TriangleGrid(std::move(triangles), reach);
 }
 
-std::vector<FaultCrossings::Crossing> FaultCrossings::operator()(const Vec3& a, const Vec3& b) const {
+std::vector<SheetCrossings::Crossing> SheetCrossings::operator()(const Vec3& a, const Vec3& b) const {
     struct Met {
         std::vector<double> sheet;
         std::vector<double> margin;
@@ -67,18 +67,18 @@ std::vector<FaultCrossings::Crossing> FaultCrossings::operator()(const Vec3& a, 
     std::map<std::int32_t, Met> met;
     for (const std::uint32_t i : triangles_.candidates(0.5 * (a + b))) {
         if (const auto at = crossing(triangles_.triangle(i), a, b)) {
-            const auto& [fault, margin] = owner_[i];
+            const auto& [barrier, margin] = owner_[i];
             if (!margin) {
-                met[fault].sheet.push_back(*at);
+                met[barrier].sheet.push_back(*at);
             } else if (!extent_.contains(a + *at * (b - a))) {
-                met[fault].margin.push_back(*at);
+                met[barrier].margin.push_back(*at);
             }
         }
     }
     std::vector<Crossing> result;
-    for (auto& [fault, places] : met) {
+    for (auto& [barrier, places] : met) {
         if (const auto at = parting(places.sheet.empty() ? places.margin : places.sheet)) {
-            result.push_back({*at, fault});
+            result.push_back({*at, barrier});
         }
     }
     std::ranges::sort(result);

@@ -12,16 +12,16 @@
 
 namespace terratet {
 
-class FaultCrossings {
+class SheetCrossings {
   public:
     struct Crossing {
         double at = 0;  ///< from a (0) to b (1)
-        std::int32_t fault = -1;
+        std::int32_t barrier = -1;
         friend auto operator<=>(const Crossing&, const Crossing&) = default;
     };
 
     /// For segments up to `longest`, which should be a few spacings at most.
-    FaultCrossings(std::span<const Fault> faults, const Box3& extent, const std::vector<char>& selected,
+    SheetCrossings(std::span<const Barrier> barriers, const Box3& extent, const std::vector<char>& selected,
                    double longest);
 
     /// The selected faults that part the ends, ascending: those whose sheets the segment meets once, or three times,
@@ -30,7 +30,7 @@ class FaultCrossings {
 
   private:
     struct Owner {
-        std::int32_t fault = -1;
+        std::int32_t barrier = -1;
         bool margin = false;
     };
     Box3 extent_;

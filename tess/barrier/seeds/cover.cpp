@@ -21,7 +21,7 @@ bool faces(const BasePoint& b, const Vec3& normal) {
 
 /// Adds a base point wherever a piece of the mesh lies in no base point's ball. A piece in one ball is covered, balls
 /// being convex; others are quartered down to a twelfth of the radius, and then get a point of their own.
-void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
+void fill(const TriMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
           Grid<BasePoint>& grid, std::vector<BasePoint>& base) {
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (const Triangle& t : mesh.triangles) {
@@ -65,13 +65,13 @@ void fill(const FaultMesh& mesh, double radius, std::size_t most, const std::fun
 
 }  // namespace
 
-void cover(const FaultMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
+void cover(const TriMesh& mesh, double radius, std::size_t most, const std::function<bool(const Vec3&)>& allowed,
            std::vector<BasePoint>& base) {
     Grid<BasePoint> grid = grid_of(base, radius);
     fill(mesh, radius, most, allowed, grid, base);
 }
 
-double covering_radius(const FaultMesh& mesh, const std::vector<BasePoint>& base, double at_most) {
+double covering_radius(const TriMesh& mesh, const std::vector<BasePoint>& base, double at_most) {
     const Grid<BasePoint> grid = grid_of(base, at_most);
     double reached = 0;  // by some point, so the truth is no less
     double bound = 0;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "tess/base/compatible.hpp"
 #include "tess/barrier/seeds/seeding.hpp"
 #include "tess/barrier/seeds/settle.hpp"
+#include "tess/base/compatible.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/seed_tree.hpp"
 
@@ -347,7 +347,7 @@ class ExactSeeds {
     }
 
     const SeedTask& task_;
-    const FaultComplex& complex_;
+    const SheetComplex& complex_;
     SeedCollector collector_;
     std::vector<double> radius_;
     std::vector<Candidate> radical_;

@@ -12,16 +12,16 @@
 
 namespace terratet {
 
-struct FaultProbe {
-    Vec3 place;               ///< just out of the protection zone
-    Vec3 out;                 ///< away from the triangle that it stands over; none when it was pushed out of a zone
-    std::uint32_t fault = 0;  ///< whose triangle that is
+struct LeakProbe {
+    Vec3 place;                 ///< just out of the protection zone
+    Vec3 out;                   ///< away from the triangle that it stands over; none when it was pushed out of a zone
+    std::uint32_t barrier = 0;  ///< whose triangle that is
 };
 
-class FaultProbes {
+class LeakProbes {
   public:
-    FaultProbes() = default;
-    explicit FaultProbes(std::vector<FaultProbe> probes);
+    LeakProbes() = default;
+    explicit LeakProbes(std::vector<LeakProbe> probes);
 
     /// Is the test true of one of those in the ball? Asked until it is.
     template <class Test>
@@ -62,7 +62,7 @@ class FaultProbes {
     };
     void split(std::uint32_t begin, std::uint32_t end);
 
-    std::vector<FaultProbe> probes_;
+    std::vector<LeakProbe> probes_;
     std::vector<char> retired_;
     std::vector<Node> nodes_;
 };

@@ -2,23 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/barrier/seeds/leaks.hpp"
 
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
-#include "tess/base/tri_mesh.hpp"
-#include "tess/barrier/seeds/leak_probes.hpp"
-#include "tess/barrier_query.hpp"
 #include "tess/barrier/query/protection_zone.hpp"
+#include "tess/barrier/seeds/leak_probes.hpp"
+#include "tess/barrier/seeds/leak_sheets.hpp"
+#include "tess/barrier_query.hpp"
 #include "tess/base/seed_grid.hpp"
-#include "tess/base/triangle_grid.hpp"
+#include "tess/base/tri_mesh.hpp"
+#include "tess/mesh/delaunay.hpp"
 
 namespace terratet {
 namespace {
@@ -26,7 +21,7 @@ namespace {
 struct Seen {
     bool yes = false;
 };
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Kernel = delaunay::Epick;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
 using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<Seen, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
@@ -35,103 +30,26 @@ using Cell = Delaunay::Cell_handle;
 using Corners = std::array<std::uint32_t, 4>;  ///< sites
 using Edge = std::array<std::uint32_t, 2>;     ///< likewise
 
-constexpr double beyond = 1 + 1e-5;    ///< of the protection radius: just out of the zone
-constexpr double sight = 1.0;          ///< how far from a seed its planes lie, in spacings
-constexpr double same_normal = 0.99;   ///< cosine of the angle up to which two planes are as one,
-constexpr double same_height = 0.1;    ///< and how far apart they may be, in protection radii
-constexpr double level = 0.98;         ///< cosine of the angle up to which a sheet does not count as bent,
-constexpr double plain_radius = 0.75;  ///< looked at so far from a seed, in spacings
-constexpr double low = 0.02;           ///< likewise: pairs so narrow stand where layers of a sheet lie on each other
-constexpr double shallow = 0.95;       ///< of the protection radius: balls reach that far anyhow
-constexpr double inside = 0.995;       ///< of the protection radius: what is protected for sure
-constexpr std::size_t most_planes = 24;
-constexpr double wide = 1.9;          ///< in protection radii: larger triangles are looked at in parts
-constexpr double close_probes = 0.2;  ///< in protection radii: probes nearer to each other than that,
-constexpr double close_out = 0.9;     ///< and standing out into directions with this cosine at least, tell the same
+constexpr double low = 0.02;      ///< of the spacing: pairs so narrow stand where layers of a sheet lie on each other
+constexpr double shallow = 0.95;  ///< of the protection radius: balls reach that far anyhow
+constexpr double inside = 0.995;  ///< of the protection radius: what is protected for sure
 
-Kernel::Point_3 to_cgal(const Vec3& p) {
-    return {p.x, p.y, p.z};
-}
-Vec3 from_cgal(const Kernel::Point_3& p) {
-    return {p.x(), p.y(), p.z()};
-}
-
-double widest_protection(std::span<const Fault> faults) {
-    double widest = std::numeric_limits<double>::min();
-    for (const Fault& fault : faults) {
-        widest = std::max(widest, fault.protection_radius);
-    }
-    return widest;
-}
-
-/// Triangles with an edge that no other shares.
-std::vector<char> at_rims(const std::vector<TriangleCorners>& triangles) {
-    using Sides = std::pair<Vec3, Vec3>;
-    const auto edge = [](const TriangleCorners& c, std::size_t k) { return Sides(std::minmax(c[k], c[(k + 1) % 3])); };
-    std::map<Sides, int> uses;
-    for (const TriangleCorners& c : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            ++uses[edge(c, k)];
-        }
-    }
-    std::vector<char> result;
-    for (const TriangleCorners& c : triangles) {
-        result.push_back(uses[edge(c, 0)] == 1 || uses[edge(c, 1)] == 1 || uses[edge(c, 2)] == 1 ? 1 : 0);
-    }
-    return result;
-}
-
-struct Plane {
-    Vec3 base;
-    Vec3 normal;
-    double protection = 0;  ///< of its fault
-};
-
-/// The triangle in equal parts, like it, none with an edge above `longest`; at most some thousand.
-std::vector<TriangleCorners> parts_of(const TriangleCorners& whole, double longest) {
-    std::vector<TriangleCorners> parts{whole};
-    for (double edge =
-             std::max({distance(whole[0], whole[1]), distance(whole[1], whole[2]), distance(whole[2], whole[0])});
-         edge > longest && parts.size() < 1024; edge /= 2) {
-        std::vector<TriangleCorners> smaller;
-        for (const auto& [a, b, c] : parts) {
-            const Vec3 ab = 0.5 * (a + b);
-            const Vec3 bc = 0.5 * (b + c);
-            const Vec3 ca = 0.5 * (c + a);
-            smaller.insert(smaller.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
-        parts = std::move(smaller);
-    }
-    return parts;
-}
-
-/// Neither there nor too many?
-bool is_wanted(const Plane& plane, const std::vector<Plane>& planes) {
-    return planes.size() < most_planes && plane.normal != Vec3{} &&
-           std::ranges::none_of(planes, [&](const Plane& other) {
-               return std::abs(dot(other.normal, plane.normal)) > same_normal &&
-                      std::abs(dot(other.base - plane.base, plane.normal)) < same_height * plane.protection;
-           });
-}
+using delaunay::from_cgal;
+using delaunay::to_cgal;
 
 /// What lies round a pair of seeds.
 struct Surroundings {
-    std::vector<Plane> planes;  ///< of the triangles near it; the first is the one that it is mirrored in
-    bool plain = true;          ///< no other sheet is near, no rim, and no bend
+    std::vector<SheetPlane> planes;  ///< of the triangles near it; the first is the one that it is mirrored in
+    bool plain = true;               ///< no other sheet is near, no rim, and no bend
 };
 
 }  // namespace
 
 struct LeakFinder::Impl {
-    std::span<const Fault> faults;
+    std::span<const Barrier> barriers;
     Box3 hull;
-    FaultProximity proximity;
-    FaultZone zone;
-    std::vector<Box3> boxes;              ///< of the sheets
-    TriangleGrid grid;                    ///< of the sheets
-    std::vector<std::uint32_t> fault_of;  ///< of each triangle there
-    std::vector<char> at_rim;             ///< by triangle
-    std::vector<Vec3> normals;            ///< by triangle
+    LeakSheets sheets;
+    ProtectionZone zone;
     std::vector<Site> sites;
     std::vector<Delaunay::Vertex_handle> vertices;  ///< by site
     std::vector<Surroundings> around;               ///< by half their sites
@@ -139,38 +57,22 @@ struct LeakFinder::Impl {
     SeedGrid protected_balls;
     std::vector<std::uint32_t> protectors;  ///< of these balls
     double probe_reach;                     ///< larger balls are probed about their seeds alone
-    FaultProbes probes;
+    LeakProbes probes;
     std::vector<Cell> found;  ///< by number of the leak, in the last find()
     std::vector<Edge> leaking_edges;
 
-    Impl(std::span<const Fault> given, const Box3& box)
-        : faults(given),
+    Impl(std::span<const Barrier> given, const Box3& box)
+        : barriers(given),
           hull(box),
-          proximity(given),
+          sheets(given),
           zone(given),
-          protected_balls({}, widest_protection(given)),
-          probe_reach(2 * widest_protection(given)) {
-        std::vector<TriangleCorners> triangles;
-        std::vector<double> reach;
-        for (std::uint32_t f = 0; f < faults.size(); ++f) {
-            const Surface& sheet = faults[f].sheet;
-            boxes.push_back(bounding_box(sheet.vertices));
-            for (const Triangle& t : sheet.triangles) {
-                triangles.push_back({sheet.vertices[t[0]], sheet.vertices[t[1]], sheet.vertices[t[2]]});
-                reach.push_back(sight * faults[f].spacing);
-                fault_of.push_back(f);
-            }
-        }
-        at_rim = at_rims(triangles);
-        for (const TriangleCorners& c : triangles) {
-            normals.push_back(unit(area_vector(c)));
-        }
-        grid = TriangleGrid(std::move(triangles), reach);
-        place_probes();
+          protected_balls({}, sheets.widest_protection()),
+          probe_reach(2 * sheets.widest_protection()) {
+        probes = sheets.probes(zone, hull);
         std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
-        for (std::uint32_t f = 0; f < faults.size(); ++f) {
-            for (std::size_t k = 0; k + 1 < faults[f].seeds.size(); k += 2) {
-                add_sites(f, faults[f].seeds[k].position, faults[f].seeds[k + 1].position);
+        for (std::uint32_t f = 0; f < barriers.size(); ++f) {
+            for (std::size_t k = 0; k + 1 < barriers[f].seeds.size(); k += 2) {
+                add_sites(f, barriers[f].seeds[k].position, barriers[f].seeds[k + 1].position);
             }
         }
         for (int corner = 0; corner < 8; ++corner) {
@@ -188,58 +90,6 @@ struct LeakFinder::Impl {
         }
     }
 
-    /// Where seeds' planes may not tell; of those that stand close together over one fault, one.
-    void place_probes() {
-        std::vector<FaultProbe> placed;
-        SeedGrid places({}, close_probes * widest_protection(faults));
-        const auto place = [&](const Vec3& over, const Vec3& out, std::uint32_t f) {
-            const std::optional<Vec3> free = zone.pushed_out(over);
-            if (!free || !hull.contains(*free)) {
-                return;
-            }
-            const FaultProbe probe{*free, *free == over ? out : Vec3{}, f};
-            bool there = false;
-            places.visit(probe.place, [&](std::uint32_t k) {
-                const Vec3& other = placed[k].out;
-                const bool alike = probe.out == Vec3{} ? other == Vec3{} : dot(other, probe.out) > close_out;
-                there = there || (placed[k].fault == f && alike &&
-                                  distance(placed[k].place, probe.place) < close_probes * faults[f].protection_radius);
-            });
-            if (!there) {
-                places.insert(probe.place);
-                placed.push_back(probe);
-            }
-        };
-        const auto place_over = [&](const TriangleCorners& c, std::uint32_t t) {
-            const Vec3 middle = centroid(c);
-            if (is_plain(fault_of[t], middle, normals[t])) {
-                return;
-            }
-            for (const Vec3& x : {middle, 0.5 * (middle + c[0]), 0.5 * (middle + c[1]), 0.5 * (middle + c[2])}) {
-                for (const double side : {1.0, -1.0}) {
-                    const Vec3 out = side * normals[t];
-                    place(x + beyond * faults[fault_of[t]].protection_radius * out, out, fault_of[t]);
-                }
-            }
-        };
-        for (std::uint32_t t = 0; t < grid.size(); ++t) {
-            const double longest = wide * faults[fault_of[t]].protection_radius;
-            for (const TriangleCorners& part : parts_of(grid.triangle(t), longest)) {
-                place_over(part, t);
-            }
-        }
-        probes = FaultProbes(std::move(placed));
-    }
-
-    /// No other sheet is near, no rim, and no bend.
-    [[nodiscard]] bool is_plain(std::uint32_t fault, const Vec3& place, const Vec3& normal) const {
-        const double near = plain_radius * faults[fault].spacing;
-        return std::ranges::all_of(grid.candidates(place), [&](std::uint32_t t) {
-            return (fault_of[t] == fault && at_rim[t] == 0 && dot(normals[t], normal) > level) ||
-                   grid.squared_distance_to(t, place) >= near * near;
-        });
-    }
-
     std::uint32_t add_sites(std::uint32_t owner, const Vec3& plus, const Vec3& minus) {
         const auto first = static_cast<std::uint32_t>(sites.size());
         const Vec3 base = 0.5 * (plus + minus);
@@ -248,15 +98,8 @@ struct LeakFinder::Impl {
         sites.push_back({minus, base, normal, owner, first, true});
         around.resize(first / 2 + 1);
         Surroundings& here = around.back();
-        here.planes.push_back({base, normal, faults[owner].protection_radius});
-        const double near = sight * faults[owner].spacing;
-        for (const std::uint32_t t : grid.candidates(base)) {
-            const Plane plane{grid.triangle(t)[0], normals[t], faults[fault_of[t]].protection_radius};
-            if (is_wanted(plane, here.planes) && grid.squared_distance_to(t, base) < near * near) {
-                here.planes.push_back(plane);
-            }
-        }
-        here.plain = is_plain(owner, base, normal) && distance(plus, minus) > low * faults[owner].spacing;
+        here.planes = sheets.planes_about(owner, base, normal);
+        here.plain = sheets.is_plain(owner, base, normal) && distance(plus, minus) > low * barriers[owner].spacing;
         return first;
     }
 
@@ -300,7 +143,7 @@ struct LeakFinder::Impl {
         }
         std::ranges::sort(leaks, {}, [](const auto& entry) {
             const Leak& leak = entry.first;
-            return std::tuple(leak.center, leak.radius, leak.from, leak.fault);
+            return std::tuple(leak.center, leak.radius, leak.from, leak.barrier);
         });
         std::vector<Leak> result;
         found.clear();
@@ -315,14 +158,14 @@ struct LeakFinder::Impl {
     void test_edge(std::uint32_t a, std::uint32_t b, std::vector<std::pair<Leak, Cell>>& leaks) {
         const Vec3& from = sites[a].position;
         const Vec3& to = sites[b].position;
-        for (std::uint32_t f = 0; f < faults.size(); ++f) {
-            const auto fault = static_cast<std::int32_t>(f);
-            const bool own = proximity.meet(fault, static_cast<std::int32_t>(sites[a].owner)) &&
-                             proximity.meet(fault, static_cast<std::int32_t>(sites[b].owner));
-            if (!own && crosses(f, from, to)) {
-                leaks.push_back(
-                    {{0.5 * (from + to), 0.5 * distance(from, to), true, a, to, f, crossing_place(f, from, to), f, 0},
-                     Cell()});
+        for (std::uint32_t f = 0; f < barriers.size(); ++f) {
+            const auto barrier = static_cast<std::int32_t>(f);
+            const bool own = sheets.query().meet(barrier, static_cast<std::int32_t>(sites[a].owner)) &&
+                             sheets.query().meet(barrier, static_cast<std::int32_t>(sites[b].owner));
+            if (!own && sheets.crosses(f, from, to)) {
+                leaks.push_back({{0.5 * (from + to), 0.5 * distance(from, to), true, a, to, f,
+                                  sheets.crossing_place(f, from, to), f, 0},
+                                 Cell()});
                 leaking_edges.push_back({a, b});
             }
         }
@@ -338,18 +181,18 @@ struct LeakFinder::Impl {
         if (is_shallow(v, leak)) {
             return false;
         }
-        std::vector<Plane> planes;
+        std::vector<SheetPlane> planes;
         double widest = -1;
         for (const std::uint32_t i : v) {
             if (sites[i].owner == nobody) {
                 continue;
             }
-            if (const double protection = faults[sites[i].owner].protection_radius; protection > widest) {
+            if (const double protection = barriers[sites[i].owner].protection_radius; protection > widest) {
                 widest = protection;
                 leak.protector = sites[i].owner;
             }
             std::ranges::copy_if(around[i / 2].planes, std::back_inserter(planes),
-                                 [&](const Plane& plane) { return is_wanted(plane, planes); });
+                                 [&](const SheetPlane& plane) { return is_wanted(plane, planes); });
         }
         return leaks_over(planes, cell, v, leak) || holds_probe(cell, v, leak) || holds_chord(cell, v, leak);
     }
@@ -360,17 +203,18 @@ struct LeakFinder::Impl {
             const Site& site = sites[i];
             const double height = dot(ball.center - site.base, site.normal);
             const double side = i == site.first ? 1 : -1;
-            return site.owner == nobody || (around[i / 2].plain && ball.radius - side * height <
-                                                                       shallow * faults[site.owner].protection_radius);
+            return site.owner == nobody ||
+                   (around[i / 2].plain &&
+                    ball.radius - side * height < shallow * barriers[site.owner].protection_radius);
         });
     }
 
     /// At the ball's places farthest off each plane, and at those over its seeds just out of the zone.
-    bool leaks_over(const std::vector<Plane>& planes, const Cell& cell, const Corners& v, Leak& leak) const {
+    bool leaks_over(const std::vector<SheetPlane>& planes, const Cell& cell, const Corners& v, Leak& leak) const {
         if (leads_to(leak.center, planes, cell, v, leak)) {
             return true;
         }
-        for (const Plane& plane : planes) {
+        for (const SheetPlane& plane : planes) {
             for (const double side : {1.0, -1.0}) {
                 const Vec3 out = side * plane.normal;
                 if (leads_to(leak.center + (1 - 1e-9) * leak.radius * out, planes, cell, v, leak)) {
@@ -378,7 +222,7 @@ struct LeakFinder::Impl {
                 }
                 for (const std::uint32_t i : v) {
                     const Vec3& from = sites[i].position;
-                    const double way = beyond * plane.protection - dot(from - plane.base, out);
+                    const double way = just_beyond * plane.protection - dot(from - plane.base, out);
                     if (sites[i].owner != nobody && leads_to(from + way * out, planes, cell, v, leak)) {
                         return true;
                     }
@@ -390,12 +234,13 @@ struct LeakFinder::Impl {
 
     /// Is the place in the ball and out of the zone, and hidden from one of the cell's seeds? Only behind one of the
     /// planes can it be.
-    bool leads_to(const Vec3& to, const std::vector<Plane>& planes, const Cell& cell, const Corners& v,
+    bool leads_to(const Vec3& to, const std::vector<SheetPlane>& planes, const Cell& cell, const Corners& v,
                   Leak& leak) const {
         if (!holds(leak, to) || !hull.contains(to)) {
             return false;
         }
-        const auto is_behind = [&](const Vec3& from, const Plane& plane) {  // or so near that a fold may be between
+        const auto is_behind = [&](const Vec3& from,
+                                   const SheetPlane& plane) {  // or so near that a fold may be between
             const double height = dot(from - plane.base, plane.normal);
             const double side = dot(to - plane.base, plane.normal) < 0 ? -1 : 1;
             return side * height < same_height * plane.protection;
@@ -403,8 +248,9 @@ struct LeakFinder::Impl {
         Corners behind{};
         std::size_t count = 0;
         for (const std::uint32_t i : v) {
-            if (sites[i].owner != nobody &&
-                std::ranges::any_of(planes, [&](const Plane& plane) { return is_behind(sites[i].position, plane); })) {
+            if (sites[i].owner != nobody && std::ranges::any_of(planes, [&](const SheetPlane& plane) {
+                    return is_behind(sites[i].position, plane);
+                })) {
                 behind[count++] = i;
             }
         }
@@ -412,8 +258,8 @@ struct LeakFinder::Impl {
             return false;
         }
         for (const std::uint32_t i : std::span(behind).first(count)) {
-            for (std::uint32_t f = 0; f < faults.size(); ++f) {
-                if (crosses(f, sites[i].position, to)) {
+            for (std::uint32_t f = 0; f < barriers.size(); ++f) {
+                if (sheets.crosses(f, sites[i].position, to)) {
                     return describe(i, f, to, cell, leak);
                 }
             }
@@ -422,7 +268,7 @@ struct LeakFinder::Impl {
     }
 
     bool holds_probe(const Cell& cell, const Corners& v, Leak& leak) const {
-        const auto test = [&](const FaultProbe& probe) { return leads_to_probe(probe, cell, v, leak); };
+        const auto test = [&](const LeakProbe& probe) { return leads_to_probe(probe, cell, v, leak); };
         if (leak.radius <= probe_reach) {
             return probes.any_within(leak.center, leak.radius, test);
         }
@@ -438,7 +284,7 @@ struct LeakFinder::Impl {
     }
 
     /// Through the sheet that the probe stands over.
-    bool leads_to_probe(const FaultProbe& probe, const Cell& cell, const Corners& v, Leak& leak) const {
+    bool leads_to_probe(const LeakProbe& probe, const Cell& cell, const Corners& v, Leak& leak) const {
         if (!holds(leak, probe.place)) {
             return false;
         }
@@ -446,14 +292,14 @@ struct LeakFinder::Impl {
         for (const std::uint32_t i : v) {
             const Vec3& from = sites[i].position;
             const double height = dot(probe.place - from, probe.out);
-            const double below = (1 - same_height) * faults[probe.fault].protection_radius;  // or hardly above
+            const double below = (1 - same_height) * barriers[probe.barrier].protection_radius;  // or hardly above
             if (sites[i].owner == nobody || (!pushed && height <= below)) {
                 continue;
             }
-            const std::uint32_t first = pushed ? 0 : probe.fault;
-            const auto last = pushed ? static_cast<std::uint32_t>(faults.size()) : probe.fault + 1;
+            const std::uint32_t first = pushed ? 0 : probe.barrier;
+            const auto last = pushed ? static_cast<std::uint32_t>(barriers.size()) : probe.barrier + 1;
             for (std::uint32_t f = first; f < last; ++f) {
-                if (crosses(f, from, probe.place)) {
+                if (sheets.crosses(f, from, probe.place)) {
                     return describe(i, f, probe.place, cell, leak);
                 }
             }
@@ -467,9 +313,9 @@ struct LeakFinder::Impl {
     /// h² + t² + r_p² (1 + h²/t²) < R², or (|h| + r_p)² < R² where t² < |h| r_p: steep ones are longer.
     bool holds_chord(const Cell& cell, const Corners& v, Leak& leak) const {
         const double squared_radius = leak.radius * leak.radius;
-        const auto test = [&](const FaultZone::Ball& near) {
+        const auto test = [&](const ProtectionZone::Ball& near) {
             const TriangleCorners& c = near.corners;
-            const double protection = beyond * near.radius;
+            const double protection = just_beyond * near.radius;
             const Vec3 normal = unit(area_vector(c));
             const double height = dot(leak.center - c[0], normal);
             const double deep = std::abs(height) + protection;
@@ -492,7 +338,7 @@ struct LeakFinder::Impl {
                 }
             }
             for (const std::uint32_t i : v) {
-                if (sites[i].owner != nobody && describe(i, near.fault, place + half, cell, leak)) {
+                if (sites[i].owner != nobody && describe(i, near.barrier, place + half, cell, leak)) {
                     leak.place = place;
                     return true;
                 }
@@ -515,31 +361,11 @@ struct LeakFinder::Impl {
         const Vec3& from = sites[i].position;
         leak.from = i;
         leak.to = to;
-        leak.fault = f;
-        leak.place = crosses(f, from, leak.center) ? crossing_place(f, from, leak.center)
-                     : crosses(f, leak.center, to) ? crossing_place(f, leak.center, to)
-                                                   : crossing_place(f, from, to);
+        leak.barrier = f;
+        leak.place = sheets.crosses(f, from, leak.center) ? sheets.crossing_place(f, from, leak.center)
+                     : sheets.crosses(f, leak.center, to) ? sheets.crossing_place(f, leak.center, to)
+                                                          : sheets.crossing_place(f, from, to);
         return true;
-    }
-
-    [[nodiscard]] bool crosses(std::uint32_t f, const Vec3& a, const Vec3& b) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (std::max(a[axis], b[axis]) < boxes[f].lo[axis] || std::min(a[axis], b[axis]) > boxes[f].hi[axis]) {
-                return false;
-            }
-        }
-        return proximity.crosses(static_cast<std::int32_t>(f), a, b);
-    }
-
-    /// Where the way from a to b first meets the sheet. \pre It does.
-    [[nodiscard]] Vec3 crossing_place(std::uint32_t f, const Vec3& a, const Vec3& b) const {
-        double before = 0;
-        double after = 1;
-        for (int i = 0; i < 40; ++i) {
-            const double middle = 0.5 * (before + after);
-            (crosses(f, a, a + middle * (b - a)) ? after : before) = middle;
-        }
-        return a + after * (b - a);
     }
 
     [[nodiscard]] bool is_protected(const Vec3& p) const { return is_protected(p, 0); }
@@ -547,13 +373,14 @@ struct LeakFinder::Impl {
         bool held = false;
         protected_balls.visit(center, [&](std::uint32_t k) {
             held = held || distance(protected_balls.point(k), center) + radius <
-                               inside * faults[protectors[k]].protection_radius;
+                               inside * barriers[protectors[k]].protection_radius;
         });
         return held;
     }
 };
 
-LeakFinder::LeakFinder(std::span<const Fault> faults, const Box3& hull) : impl_(std::make_unique<Impl>(faults, hull)) {}
+LeakFinder::LeakFinder(std::span<const Barrier> barriers, const Box3& hull)
+    : impl_(std::make_unique<Impl>(barriers, hull)) {}
 LeakFinder::~LeakFinder() = default;
 
 std::vector<Leak> LeakFinder::find(const std::function<void(double)>& progress) {
@@ -564,10 +391,10 @@ const std::vector<LeakFinder::Site>& LeakFinder::sites() const {
     return impl_->sites;
 }
 
-void LeakFinder::protect(std::uint32_t fault, const Vec3& center) {
-    impl_->probes.retire_within(center, inside * impl_->faults[fault].protection_radius);
+void LeakFinder::protect(std::uint32_t barrier, const Vec3& center) {
+    impl_->probes.retire_within(center, inside * impl_->barriers[barrier].protection_radius);
     impl_->protected_balls.insert(center);
-    impl_->protectors.push_back(fault);
+    impl_->protectors.push_back(barrier);
 }
 
 bool LeakFinder::protects(const Leak& leak) const {
@@ -578,8 +405,8 @@ void LeakFinder::look_again(const Leak& leak) {
     impl_->found[leak.number]->info().yes = false;
 }
 
-std::uint32_t LeakFinder::add_pair(std::uint32_t fault, const Vec3& plus, const Vec3& minus) {
-    const std::uint32_t first = impl_->add_sites(fault, plus, minus);
+std::uint32_t LeakFinder::add_pair(std::uint32_t barrier, const Vec3& plus, const Vec3& minus) {
+    const std::uint32_t first = impl_->add_sites(barrier, plus, minus);
     for (const std::uint32_t site : {first, first + 1}) {
         impl_->vertices.push_back(impl_->tessellation.insert(to_cgal(impl_->sites[site].position)));
         impl_->vertices.back()->info() = site;
@@ -598,39 +425,20 @@ double LeakFinder::distance_to_seed(const Vec3& p) const {
     return distance(from_cgal(impl_->tessellation.nearest_vertex(to_cgal(p))->point()), p);
 }
 
-double LeakFinder::distance_to_sheet(std::uint32_t fault, const Vec3& p) const {
-    return impl_->proximity.distance_to_sheet(static_cast<std::int32_t>(fault), p);
+double LeakFinder::distance_to_sheet(std::uint32_t barrier, const Vec3& p) const {
+    return impl_->sheets.query().distance_to_sheet(static_cast<std::int32_t>(barrier), p);
 }
 
-double LeakFinder::distance_to_others(std::uint32_t fault, const Vec3& p, double most) const {
-    for (std::uint32_t f = 0; f < impl_->faults.size(); ++f) {
-        if (f != fault && distance(p, impl_->boxes[f].clamped(p)) < most) {
-            most = std::min(most, distance_to_sheet(f, p));
-        }
-    }
-    return most;
+double LeakFinder::distance_to_others(std::uint32_t barrier, const Vec3& p, double most) const {
+    return impl_->sheets.distance_to_others(barrier, p, most);
 }
 
 bool LeakFinder::is_hidden(const Vec3& a, const Vec3& b) const {
-    for (std::uint32_t f = 0; f < impl_->faults.size(); ++f) {
-        if (impl_->crosses(f, a, b)) {
-            return true;
-        }
-    }
-    return false;
+    return impl_->sheets.hide(a, b);
 }
 
-Vec3 LeakFinder::normal_at(std::uint32_t fault, const Vec3& place) const {
-    double least = std::numeric_limits<double>::infinity();
-    Vec3 normal;
-    for (const std::uint32_t t : impl_->grid.candidates(place)) {
-        const double square = impl_->grid.squared_distance_to(t, place);
-        if (impl_->fault_of[t] == fault && square < least) {
-            least = square;
-            normal = impl_->normals[t];
-        }
-    }
-    return normal;
+Vec3 LeakFinder::normal_at(std::uint32_t barrier, const Vec3& place) const {
+    return impl_->sheets.normal_at(barrier, place);
 }
 
 }  // namespace terratet

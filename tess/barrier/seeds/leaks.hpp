@@ -31,7 +31,7 @@ struct Leak {
     bool between_seeds = false;
     std::uint32_t from = 0;       ///< site of the seed that the edge would start from
     Vec3 to;                      ///< and where it could lead
-    std::uint32_t fault = 0;      ///< the one it would cross
+    std::uint32_t barrier = 0;    ///< the one it would cross
     Vec3 place;                   ///< where its sheet runs through the ball
     std::uint32_t protector = 0;  ///< of the faults with seeds on the ball, the one with the widest protection
     std::uint32_t number = 0;     ///< among those found together
@@ -50,7 +50,7 @@ class LeakFinder {
     };
 
     /// \pre The faults outlive this.
-    LeakFinder(std::span<const Fault> faults, const Box3& hull);
+    LeakFinder(std::span<const Barrier> barriers, const Box3& hull);
     ~LeakFinder();
     LeakFinder(const LeakFinder&) = delete;
     LeakFinder& operator=(const LeakFinder&) = delete;
@@ -64,20 +64,21 @@ class LeakFinder {
     static constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
     /// Other vertices keep out of the ball of the fault's protection radius round the centre as well.
-    void protect(std::uint32_t fault, const Vec3& center);
+    void protect(std::uint32_t barrier, const Vec3& center);
     [[nodiscard]] bool protects(const Leak& leak) const;  ///< the leak's whole ball, in one such ball
 
     /// Makes the next find() look at the leak's ball again. \pre The leak is of the last one, and nothing changed.
     void look_again(const Leak& leak);
 
-    std::uint32_t add_pair(std::uint32_t fault, const Vec3& plus, const Vec3& minus);  ///< returns its first site
+    std::uint32_t add_pair(std::uint32_t barrier, const Vec3& plus, const Vec3& minus);  ///< returns its first site
     void drop_pair(std::uint32_t first);
 
     [[nodiscard]] double distance_to_seed(const Vec3& p) const;
-    [[nodiscard]] double distance_to_sheet(std::uint32_t fault, const Vec3& p) const;
-    [[nodiscard]] double distance_to_others(std::uint32_t fault, const Vec3& p, double most) const;  ///< `most` at most
-    [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;                                ///< by any sheet
-    [[nodiscard]] Vec3 normal_at(std::uint32_t fault, const Vec3& place) const;  ///< \pre on its sheet
+    [[nodiscard]] double distance_to_sheet(std::uint32_t barrier, const Vec3& p) const;
+    [[nodiscard]] double distance_to_others(std::uint32_t barrier, const Vec3& p,
+                                            double most) const;                    ///< `most` at most
+    [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;              ///< by any sheet
+    [[nodiscard]] Vec3 normal_at(std::uint32_t barrier, const Vec3& place) const;  ///< \pre on its sheet
 
   private:
     struct Impl;

@@ -45,7 +45,7 @@ class PairedSeeds {
         }
     }
 
-    SeededComplex run(const std::vector<FaultMesh>& skirts) {
+    SeededComplex run(const std::vector<TriMesh>& skirts) {
         SeededComplex result;
         result.certified.assign(complex_.triangles.size(), 0);
         for (std::uint32_t v = 0; v < complex_.points.size(); ++v) {
@@ -220,7 +220,7 @@ class PairedSeeds {
     }
 
     const SeedTask& task_;
-    const FaultComplex& complex_;
+    const SheetComplex& complex_;
     SeedCollector collector_;
     std::vector<std::vector<std::uint32_t>> star_;
     std::vector<char> at_rim_;  ///< by point
@@ -228,7 +228,7 @@ class PairedSeeds {
 
 }  // namespace
 
-SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& skirts) {
+SeededComplex paired_seeds(const SeedTask& task, const std::vector<TriMesh>& skirts) {
     return PairedSeeds(task).run(skirts);
 }
 

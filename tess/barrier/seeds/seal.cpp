@@ -21,13 +21,13 @@ constexpr double touching = 1 - 1e-6;
 
 class Sealer {
   public:
-    Sealer(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
+    Sealer(std::span<const Barrier> barriers, const Box3& hull, const Frame& frame,
            const std::function<void(double)>& progress)
-        : faults_(faults), hull_(hull), frame_(frame), progress_(progress), finder_(faults, hull) {
-        seal_.flakes.resize(faults.size());
+        : barriers_(barriers), hull_(hull), frame_(frame), progress_(progress), finder_(barriers, hull) {
+        seal_.flakes.resize(barriers.size());
     }
 
-    FaultSeal run() {
+    Seal run() {
         for (int round = 0; round <= rounds; ++round) {
             bool changes = false;
             std::size_t closed = 0;
@@ -39,7 +39,7 @@ class Sealer {
                     (round < rounds && (add_pair(leak) || drop_pair(leak) || keep_away(leak)))) {
                     changes = true;
                 } else {
-                    seal_.open.push_back({leak.fault, finder_.sites()[leak.from].owner, leak.place});
+                    seal_.open.push_back({leak.barrier, finder_.sites()[leak.from].owner, leak.place});
                 }
             }
             if (!changes) {
@@ -59,7 +59,7 @@ class Sealer {
     }
 
     struct Pair {
-        std::uint32_t fault = 0;
+        std::uint32_t barrier = 0;
         Vec3 plus;
         Vec3 minus;
     };
@@ -83,19 +83,19 @@ class Sealer {
 
     static bool holds(const Leak& leak, const Vec3& p) { return distance(p, leak.center) < touching * leak.radius; }
 
-    [[nodiscard]] double protection(const Leak& leak) const { return faults_[leak.protector].protection_radius; }
+    [[nodiscard]] double protection(const Leak& leak) const { return barriers_[leak.protector].protection_radius; }
 
     /// Where the sheet runs through the ball, as high as other sheets and seeds allow.
     bool add_pair(const Leak& leak) {
-        const Fault& fault = faults_[leak.fault];
-        const Vec3 normal = finder_.normal_at(leak.fault, leak.place);
-        double height =
-            std::min(0.5 * fault.width, 0.4 * finder_.distance_to_others(leak.fault, leak.place, 2 * fault.width));
-        for (; height > lowest * fault.spacing; height *= 0.5) {
+        const Barrier& barrier = barriers_[leak.barrier];
+        const Vec3 normal = finder_.normal_at(leak.barrier, leak.place);
+        double height = std::min(0.5 * barrier.width,
+                                 0.4 * finder_.distance_to_others(leak.barrier, leak.place, 2 * barrier.width));
+        for (; height > lowest * barrier.spacing; height *= 0.5) {
             const Vec3 plus = frame_.snapped(leak.place + height * normal);
             const Vec3 minus = frame_.snapped(leak.place - height * normal);
             if (fits(plus, leak, height) && fits(minus, leak, height)) {
-                added_.push_back({leak.fault, plus, minus});
+                added_.push_back({leak.barrier, plus, minus});
                 return true;
             }
         }
@@ -104,7 +104,7 @@ class Sealer {
 
     [[nodiscard]] bool fits(const Vec3& seed, const Leak& leak, double height) const {
         const double clear = 0.25 * height;
-        return hull_.grown(-0.5 * faults_[leak.fault].spacing).contains(seed) && holds(leak, seed) &&
+        return hull_.grown(-0.5 * barriers_[leak.barrier].spacing).contains(seed) && holds(leak, seed) &&
                finder_.distance_to_seed(seed) >= clear &&
                !finder_.is_hidden(leak.place + 0.01 * (seed - leak.place), seed) &&
                std::ranges::none_of(added_, [&](const Pair& pair) {
@@ -115,7 +115,7 @@ class Sealer {
     /// A seed that all but lies on another sheet, or on another part of its own, does more harm than good.
     bool drop_pair(const Leak& leak) {
         const LeakFinder::Site& site = finder_.sites()[leak.from];
-        if (finder_.distance_to_sheet(leak.fault, site.position) > harmful * faults_[leak.fault].spacing) {
+        if (finder_.distance_to_sheet(leak.barrier, site.position) > harmful * barriers_[leak.barrier].spacing) {
             return false;
         }
         dropped_.push_back(site.first);
@@ -148,7 +148,7 @@ class Sealer {
     void add_flake(const Leak& leak, const Vec3& center) {
         finder_.protect(leak.protector, center);
         const double size = flake_share * protection(leak);
-        FaultMesh flake;
+        TriMesh flake;
         flake.points = {center, center + Vec3{size, 0, 0}, center + Vec3{0, size, 0}};
         flake.triangles = {{0, 1, 2}};
         append(seal_.flakes[leak.protector], flake);
@@ -162,41 +162,41 @@ class Sealer {
         }
         for (const Pair& pair : added_) {
             seal_.changed.insert(seal_.changed.end(), {pair.plus, pair.minus});
-            finder_.add_pair(pair.fault, pair.plus, pair.minus);
+            finder_.add_pair(pair.barrier, pair.plus, pair.minus);
         }
         dropped_.clear();
         added_.clear();
     }
 
-    FaultSeal result() {
-        seal_.seeds.resize(faults_.size());
+    Seal result() {
+        seal_.seeds.resize(barriers_.size());
         for (std::uint32_t i = 0; i < finder_.sites().size(); ++i) {
             const LeakFinder::Site& site = finder_.sites()[i];
             if (site.owner != LeakFinder::nobody && site.present) {
                 seal_.seeds[site.owner].push_back({site.position, static_cast<std::int8_t>(i == site.first ? 1 : -1)});
             }
         }
-        const auto by_fault = [](const FaultSeal::Open& o) { return std::tuple(o.fault, o.owner, o.place); };
-        std::ranges::sort(seal_.open, {}, by_fault);
-        seal_.open.erase(std::ranges::unique(seal_.open, {}, by_fault).begin(), seal_.open.end());
+        const auto by_barrier = [](const Seal::Open& o) { return std::tuple(o.barrier, o.owner, o.place); };
+        std::ranges::sort(seal_.open, {}, by_barrier);
+        seal_.open.erase(std::ranges::unique(seal_.open, {}, by_barrier).begin(), seal_.open.end());
         return std::move(seal_);
     }
 
-    std::span<const Fault> faults_;
+    std::span<const Barrier> barriers_;
     const Box3& hull_;
     const Frame& frame_;
     const std::function<void(double)>& progress_;
     LeakFinder finder_;
     std::vector<Pair> added_;             ///< in this round
     std::vector<std::uint32_t> dropped_;  ///< in this round: first sites of pairs
-    FaultSeal seal_;
+    Seal seal_;
 };
 
 }  // namespace
 
-FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
-                      const std::function<void(double)>& progress) {
-    return Sealer(faults, hull, frame, progress).run();
+Seal seal_sheets(std::span<const Barrier> barriers, const Box3& hull, const Frame& frame,
+                 const std::function<void(double)>& progress) {
+    return Sealer(barriers, hull, frame, progress).run();
 }
 
 }  // namespace terratet

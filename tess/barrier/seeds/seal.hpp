@@ -20,22 +20,22 @@
 
 namespace terratet {
 
-struct FaultSeal {
+struct Seal {
     struct Open {
-        std::uint32_t fault = 0;  ///< the one crossed
-        std::uint32_t owner = 0;  ///< of the seed that the edge would start from
+        std::uint32_t barrier = 0;  ///< the one crossed
+        std::uint32_t owner = 0;    ///< of the seed that the edge would start from
         Vec3 place;
     };
     std::vector<std::vector<Seed>> seeds;  ///< by fault: mirrored pairs, + first; the given ones but for dropped ones,
                                            ///< in their order, and then added ones
-    std::vector<FaultMesh> flakes;         ///< to join the margins, by fault
+    std::vector<TriMesh> flakes;           ///< to join the margins, by fault
     std::vector<Vec3> changed;             ///< where seeds came or went
     std::vector<Open> open;                ///< what could not be closed, ascending
 };
 
 /// Deterministic for faults in a given order. Some 50 µs a seed. Tells the progress the share that is done, and passes
 /// on what that throws.
-FaultSeal seal_faults(std::span<const Fault> faults, const Box3& hull, const Frame& frame,
-                      const std::function<void(double)>& progress = {});
+Seal seal_sheets(std::span<const Barrier> barriers, const Box3& hull, const Frame& frame,
+                 const std::function<void(double)>& progress = {});
 
 }  // namespace terratet

@@ -72,12 +72,12 @@ std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& see
     return farthest;
 }
 
-void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear, SeededComplex& result) {
+void SeedCollector::cover_all(const std::vector<TriMesh>& skirts, double clear, SeededComplex& result) {
     const double covered = task_.sizes.spacing() * std::numbers::sqrt2 / 2 * (1 + 1e-6);
     constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
     for (std::uint32_t surface = 0; surface < task_.surface_count; ++surface) {
         ask(task_.poll);
-        const FaultMesh sheet = sheet_of(task_.complex, surface);
+        const TriMesh sheet = sheet_of(task_.complex, surface);
         const std::vector<Vec3> normals = vertex_normals(sheet);
         std::vector<BasePoint> base;
         for (std::size_t v = 0; v < normals.size(); ++v) {
@@ -94,14 +94,14 @@ void SeedCollector::cover_all(const std::vector<FaultMesh>& skirts, double clear
             const Vec3 half = 0.5 * task_.width * base[k].normal;
             add(surface, base[k].position + half, base[k].position - half, {0, height_freedom});
         }
-        FaultMesh all = sheet;
+        TriMesh all = sheet;
         append(all, skirts[surface]);
         result.covering_radius.push_back(all.triangles.empty() ? 0 : covering_radius(all, base, covered));
     }
 }
 
 void SeedCollector::test_separation(SeededComplex& result) const {
-    const FaultComplex& complex = task_.complex;
+    const SheetComplex& complex = task_.complex;
     const SeedTree seeds(places_);
     const double reach = 1.2 * task_.sizes.spacing();
     result.separated.assign(complex.triangles.size(), 1);

@@ -11,17 +11,17 @@
 
 #include "tess/barrier.hpp"
 #include "tess/barrier/complex/sheet_complex.hpp"
-#include "tess/barrier/seeds/cover.hpp"
 #include "tess/barrier/complex/sheet_wall.hpp"
-#include "tess/frame.hpp"
+#include "tess/barrier/seeds/cover.hpp"
 #include "tess/base/poll.hpp"
 #include "tess/base/size_field.hpp"
+#include "tess/frame.hpp"
 
 namespace terratet {
 
 struct SeedTask {
-    const FaultComplex& complex;  ///< in exact mode with its margin row
-    const FaultWall& wall;        ///< of the complex without the row
+    const SheetComplex& complex;  ///< in exact mode with its margin row
+    const SheetWall& wall;        ///< of the complex without the row
     const EdgeTable& edges;       ///< of `complex`
     const SizeField& sizes;
     const Frame& frame;
@@ -44,7 +44,7 @@ struct SeededComplex {
 
 /// Paired: p ± (ε/2)n over the points; at junctions one pair for each half-sheet, turned away from the others.
 /// The skirts, by surface, are covered as well but for places nearer than r_p to other surfaces.
-SeededComplex paired_seeds(const SeedTask& task, const std::vector<FaultMesh>& skirts);
+SeededComplex paired_seeds(const SeedTask& task, const std::vector<TriMesh>& skirts);
 
 /// Exact: for each triangle g± = c ± h n, h² = r_i² − |c − p_i|², with the corners' radii r_i = 1.01 max R_t and c
 /// their radical centre in its plane, if h² > 0, nothing stands between triangle and seed, and no seed is strictly
@@ -74,7 +74,7 @@ class SeedCollector {
 
     /// Covers sheets and skirts with pairs, the skirts but for places nearer than `clear` to other surfaces. Then finds
     /// the covering radii.
-    void cover_all(const std::vector<FaultMesh>& skirts, double clear, SeededComplex& result);
+    void cover_all(const std::vector<TriMesh>& skirts, double clear, SeededComplex& result);
 
     /// Tests each triangle's samples against the nearest seeds.
     void test_separation(SeededComplex& result) const;

@@ -25,7 +25,7 @@ struct Tilt {
 
 class Settler {
   public:
-    Settler(const FaultComplex& complex, std::span<const double> radii, std::span<const BallPair> pairs, double depth)
+    Settler(const SheetComplex& complex, std::span<const double> radii, std::span<const BallPair> pairs, double depth)
         : complex_(complex), radii_(radii), pairs_(pairs), depths_(radii.size(), depth) {
         for_each_corner([&](std::uint32_t t, std::uint32_t v) {
             depths_[v] = std::min(depths_[v], depth * pairs[t].height / (low * radii[v]));
@@ -98,7 +98,7 @@ class Settler {
                ((2 * random_share(2 * t) - 1) * (c[1] - c[0]) + (2 * random_share(2 * t + 1) - 1) * (c[2] - c[0]));
     }
 
-    const FaultComplex& complex_;
+    const SheetComplex& complex_;
     std::span<const double> radii_;
     std::span<const BallPair> pairs_;
     std::vector<double> depths_;                                     ///< by point, in radii
@@ -107,7 +107,7 @@ class Settler {
 
 }  // namespace
 
-std::vector<std::array<Vec3, 2>> settled_seeds(const FaultComplex& complex, std::span<const double> radii,
+std::vector<std::array<Vec3, 2>> settled_seeds(const SheetComplex& complex, std::span<const double> radii,
                                                std::span<const BallPair> pairs, double depth) {
     const Settler settler(complex, radii, pairs, depth);
     std::vector<std::array<Vec3, 2>> result(pairs.size());

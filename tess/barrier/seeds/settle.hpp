@@ -26,7 +26,7 @@ struct BallPair {
 
 /// Where to put them, + first: nearer to their corners than the ball's radius, or farther, by at most `depth` radii,
 /// and less where the seeds are low, so that the wall between them stays within 5 depths of the sheet. O(n log n).
-std::vector<std::array<Vec3, 2>> settled_seeds(const FaultComplex& complex, std::span<const double> radii,
+std::vector<std::array<Vec3, 2>> settled_seeds(const SheetComplex& complex, std::span<const double> radii,
                                                std::span<const BallPair> pairs, double depth);
 
 }  // namespace terratet

@@ -49,6 +49,10 @@ class ModelSnapshot {
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const;
 
+    /// Gives up what only queries and edits want again, for the writers to come: tessellation and estimators. Whoever
+    /// asks has them made anew. \pre Nobody holds a reference to them.
+    void release_memory() const;
+
     /// What the estimator knows about its values becomes further properties of the vertices
     /// (interp/plan/uncertainty.hpp). \pre Nobody else has the snapshot yet.
     void add_uncertainty();

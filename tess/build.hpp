@@ -21,7 +21,7 @@ namespace terratet {
 struct TessellatedModel {
     Model model;
     std::optional<BarrierQuery> barriers;  ///< model_proximity(model)
-    Tessellation tessellation;
+    std::optional<Tessellation> tessellation;
     TetMesh mesh;
     CellTable cells;
 };

@@ -54,7 +54,7 @@ struct ModelSnapshot::Impl {
     const TessellatedModel& tessellation() {
         if (!tessellated) {
             made->tessellation = tessellate(made->model);
-            made->mesh = made->tessellation.mesh();
+            made->mesh = made->tessellation->mesh();
             tessellated = true;
         }
         return *made;
@@ -95,6 +95,15 @@ ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> built, std::share
 
 ModelSnapshot::~ModelSnapshot() = default;
 
+void ModelSnapshot::release_memory() const {
+    const std::lock_guard lock(impl_->mutex);
+    if (impl_->tessellated) {
+        impl_->made->tessellation.reset();
+    }
+    impl_->estimator.reset();
+    impl_->with_errors.reset();
+}
+
 void ModelSnapshot::add_uncertainty() {
     const std::lock_guard lock(impl_->mutex);
     const ModelEstimator& estimator = impl_->estimator_with_errors();
@@ -127,7 +136,8 @@ const CellTable& ModelSnapshot::cells() const {
 bool ModelSnapshot::is_delaunay() const {
     const std::lock_guard lock(impl_->mutex);
     if (!impl_->delaunay) {
-        impl_->delaunay = impl_->tessellation().tessellation.is_delaunay();
+        const auto& kept = impl_->tessellation().tessellation;
+        impl_->delaunay = kept ? kept->is_delaunay() : tessellate(impl_->made->model).is_delaunay();
     }
     return *impl_->delaunay;
 }

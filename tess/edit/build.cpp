@@ -340,13 +340,13 @@ void assign_values(Model& model, const ValueSource& source) {
 }
 
 CellStatistics initial_statistics(const TessellatedModel& built) {
-    const TetMesh mesh = built.tessellation.mesh();
+    const TetMesh mesh = built.tessellation->mesh();
     return cell_statistics(built.model, mesh, measure_cells(built.model, mesh, *built.barriers), *built.barriers);
 }
 
 /// Of all that was refined: the tables that stay, and what the report says of them.
 void describe(TessellatedModel& built, BuildReport& report) {
-    built.mesh = built.tessellation.mesh();
+    built.mesh = built.tessellation->mesh();
     built.cells = describe_cells(built.model, built.mesh, *built.barriers);
     for (const Reason reason : built.cells.reason) {
         if (reason != Reason::none && reason != Reason::fault_gap) {
@@ -405,7 +405,7 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         const Stopwatch watch(estimating);
         return source(queries);
     };
-    Tessellation& tessellation = built->tessellation;
+    Tessellation& tessellation = built->tessellation.emplace();
     {
         const Stopwatch watch(report.seconds["refine"]);
         tessellation.insert(model.vertices, [&] { report_progress(progress, "tessellate", 0); });

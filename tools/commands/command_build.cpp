@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
 
-#include "tools/options/command.hpp"
 #include "tools/commands/run_build.hpp"
+#include "tools/options/command.hpp"
 
 namespace terratet::tools {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "io/model_store.hpp"
 #include "tools/options/command.hpp"
-#include "tools/run/open_model.hpp"
 #include "tools/options/printable.hpp"
+#include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
 #include "tools/run/progress_display.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/options/command.hpp"
 #include "tools/commands/run_build.hpp"
+#include "tools/options/command.hpp"
 
 namespace terratet::tools {
 namespace {

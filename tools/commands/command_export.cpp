@@ -3,14 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include "tess/error.hpp"
+#include "tools/commands/run_build.hpp"
 #include "tools/options/command.hpp"
+#include "tools/report/report.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/outputs.hpp"
 #include "tools/run/pipeline.hpp"
 #include "tools/run/process.hpp"
 #include "tools/run/progress_display.hpp"
-#include "tools/report/report.hpp"
-#include "tools/commands/run_build.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -44,6 +44,8 @@ class Export final : public Command {
         RunRecord record;
         record.model = live.snapshot();
         const Stopwatch writing;
+        static_cast<void>(record.model->cells());  // needs the tessellation
+        record.model->release_memory();
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
             record.written = write_outputs(*record.model, outputs, exporting_, run_, {}, display.callback());

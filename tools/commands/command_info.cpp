@@ -4,9 +4,9 @@
 
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
+#include "tools/options/printable.hpp"
 #include "tools/report/describe.hpp"
 #include "tools/run/open_model.hpp"
-#include "tools/options/printable.hpp"
 #include "tools/run/process.hpp"
 
 namespace terratet::tools {

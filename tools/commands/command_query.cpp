@@ -10,13 +10,13 @@
 #include "interp/model_snapshot.hpp"
 #include "io/base/csv_text.hpp"
 #include "io/read/read_points.hpp"
-#include "tess/error.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
+#include "tess/error.hpp"
 #include "tools/options/command.hpp"
-#include "tools/run/open_model.hpp"
-#include "tools/run/process.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/options/text.hpp"
+#include "tools/run/open_model.hpp"
+#include "tools/run/process.hpp"
 
 namespace terratet::tools {
 namespace {

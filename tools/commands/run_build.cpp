@@ -6,9 +6,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "tools/report/report.hpp"
 #include "tools/run/process.hpp"
 #include "tools/run/progress_display.hpp"
-#include "tools/report/report.hpp"
 
 namespace terratet::tools {
 int run_build(const std::string& command, const BuildArguments& a, const std::vector<Given>& given) {
@@ -30,6 +30,10 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
         }
         const Stopwatch writing;
         record.model = live->snapshot();
+        if (!a.run.report.empty()) {
+            static_cast<void>(record.model->is_delaunay());  // before the tessellation goes
+        }
+        record.model->release_memory();
         record.written =
             write_outputs(*record.model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);
         record.write_seconds = writing.seconds();

@@ -15,13 +15,13 @@
 #include "tools/options/command.hpp"
 #include "tools/options/command_line.hpp"
 #include "tools/options/help.hpp"
-#include "tools/run/interrupt.hpp"
 #include "tools/options/json_usage.hpp"
 #include "tools/options/man_page.hpp"
-#include "tools/run/offline.hpp"
 #include "tools/options/printable.hpp"
-#include "tools/run/process.hpp"
 #include "tools/options/text.hpp"
+#include "tools/run/interrupt.hpp"
+#include "tools/run/offline.hpp"
+#include "tools/run/process.hpp"
 #include "tools/version.hpp"
 
 namespace terratet::tools {

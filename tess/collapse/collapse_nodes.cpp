@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "tess/barrier/query/pair_way.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/tetrahedron.hpp"
 #include "tess/mesh/quality.hpp"
@@ -48,7 +49,36 @@ std::map<Vec3, double> reach_of_own_seeds(const Model& model) {
     return result;
 }
 
-/// Each mirrored pair halfway between its seeds; pairs about a junction's point in that point.
+/// The vertex of its sheet that a pair belongs to; the middle of the pair where it has none.
+class OwnVertices {
+  public:
+    OwnVertices(const Barrier& barrier, const std::map<Vec3, double>& reach_at)
+        : barrier_(barrier), reach_at_(reach_at), vertices_({}, own_pair * barrier.spacing) {
+        for (const Surface* part : {&barrier.sheet, &barrier.margin}) {
+            for (const Vec3& p : part->vertices) {
+                vertices_.insert(p);
+            }
+        }
+    }
+
+    [[nodiscard]] Vec3 of_pair(const Vec3& middle) const {
+        const std::uint32_t nearest = vertices_.nearest(middle);
+        if (nearest == SeedGrid::none) {
+            return middle;
+        }
+        const Vec3& vertex = vertices_.point(nearest);
+        const double edge = reach_at_.at(vertex) * barrier_.spacing / (own_reach * barrier_.width);
+        return distance(vertex, middle) <= own_pair * edge ? vertex : middle;
+    }
+
+  private:
+    const Barrier& barrier_;
+    const std::map<Vec3, double>& reach_at_;
+    SeedGrid vertices_;
+};
+
+/// Each mirrored pair in the vertex it belongs to, or halfway between its seeds; pairs about a junction's point in that
+/// point.
 std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>& selected) {
     std::map<std::pair<std::int32_t, Vec3>, std::uint32_t> vertex_at;
     for (std::uint32_t v = 0; v < model.vertices.size(); ++v) {
@@ -73,15 +103,16 @@ std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>
     std::map<Vec3, std::size_t> node_at;  // by base
     for (std::size_t f = 0; f < model.barriers.size(); ++f) {
         const Barrier& barrier = model.barriers[f];
+        const OwnVertices own(barrier, own_reach_at);
         for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
             const auto plus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k].position});
             const auto minus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k + 1].position});
             if (plus == vertex_at.end() || minus == vertex_at.end()) {
                 continue;
             }
-            Vec3 base = model.frame.snapped(0.5 * (barrier.seeds[k].position + barrier.seeds[k + 1].position));
+            const Vec3 middle = 0.5 * (barrier.seeds[k].position + barrier.seeds[k + 1].position);
+            Vec3 base = model.frame.snapped(own.of_pair(middle));
             double nearest = 0.5 * barrier.width * (1 + 1e-6);
-            const Vec3 middle = base;
             bool meets = selected[f] != 0;
             for (auto at = sheets_at.lower_bound({middle.x - nearest, -max_coordinate, -max_coordinate});
                  at != sheets_at.end() && at->first.x <= middle.x + nearest; ++at) {

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "tess/barrier/query/pair_way.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/triangle_grid.hpp"
 
 namespace terratet {
 namespace {
 
-constexpr double same_place = 1e-6;    ///< in spacings
 constexpr double noticeable = 0.7;     ///< of the fault's own radius: more is left as it is
 constexpr double neighbourhood = 1.5;  ///< in spacings: nearer seeds of other faults count
 
@@ -36,19 +37,27 @@ double covered_by_corners(const TriangleCorners& t) {
     return radius;
 }
 
-/// Half the width between the two seeds of a fault over a place; negative where there is no such pair.
+/// A pair of seeds over a place.
+struct OwnPair {
+    double half = 0;  ///< of the width between the two
+    double away = 0;  ///< its middle from the place
+};
+
+/// The pairs of seeds of a fault.
 class PairWidths {
   public:
-    explicit PairWidths(const Barrier& barrier)
-        : tolerance_(same_place * barrier.spacing), grid_(middles(barrier), barrier.spacing) {
+    explicit PairWidths(const Barrier& barrier) : grid_(middles(barrier), barrier.spacing) {
         for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
             half_.push_back(0.5 * distance(barrier.seeds[k].position, barrier.seeds[k + 1].position));
         }
     }
 
-    [[nodiscard]] double half_at(const Vec3& p) const {
+    /// The nearest, if its middle is so near.
+    [[nodiscard]] std::optional<OwnPair> at(const Vec3& p, double within) const {
         const std::uint32_t nearest = grid_.nearest(p);
-        return nearest != SeedGrid::none && distance(grid_.point(nearest), p) <= tolerance_ ? half_[nearest] : -1;
+        const double away = nearest != SeedGrid::none ? distance(grid_.point(nearest), p) : 0;
+        return nearest != SeedGrid::none && away <= within ? std::optional(OwnPair{half_[nearest], away})
+                                                           : std::nullopt;
     }
 
   private:
@@ -59,8 +68,6 @@ class PairWidths {
         }
         return result;
     }
-
-    double tolerance_;
     std::vector<double> half_;
     SeedGrid grid_;
 };
@@ -89,15 +96,19 @@ std::vector<double> protection_radii(std::span<const Barrier> barriers, std::siz
     std::vector<std::pair<std::size_t, Vec3>> smaller;
     for (std::size_t t = 0; t < own.sheet.triangles.size(); ++t) {
         TriangleCorners c;
-        double half = 0;
-        bool known = true;
         for (std::size_t k = 0; k < 3; ++k) {
             c[k] = own.sheet.vertices[own.sheet.triangles[t][k]];
-            const double here = widths.half_at(c[k]);
-            half = std::max(half, here);
-            known = known && here >= 0;
         }
-        const double radius = known ? factor * std::hypot(covered_by_corners(c), half) : own.protection_radius;
+        const double within = own_pair * std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+        OwnPair widest;
+        bool known = true;
+        for (const Vec3& corner : c) {
+            const auto pair = widths.at(corner, within);
+            known = known && pair;
+            widest = {std::max(widest.half, pair ? pair->half : 0), std::max(widest.away, pair ? pair->away : 0)};
+        }
+        const double radius =
+            known ? factor * std::hypot(covered_by_corners(c) + widest.away, widest.half) : own.protection_radius;
         if (radius < noticeable * own.protection_radius) {
             radii[t] = radius;
             smaller.emplace_back(t, (c[0] + c[1] + c[2]) / 3);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "tess/barrier/query/pair_way.hpp"
 #include "tess/barrier/seeds/seeding.hpp"
 
 namespace terratet {
@@ -13,8 +14,7 @@ namespace {
 constexpr double bend_factor = 1.1;      ///< on the protection radius of bent surfaces
 constexpr double flat = 0.9999;          ///< cosine of the turn from which a surface counts as bent
 constexpr double straight = -0.95;       ///< cosine of the angle from which two half-sheets make no corner
-constexpr double way_freedom = 0.04;     ///< in edge lengths: how far pairs may be moved to mend slivers,
-constexpr double height_freedom = 0.15;  ///< and by which part lowered
+constexpr double height_freedom = 0.15;  ///< by which part pairs may be lowered to mend slivers
 constexpr double aside = 2.0 / 3;  ///< share of half a junction's sector that a seed is turned from its half-sheet
 
 /// Triangles round a point that hang together over smooth edges: a sheet, or a half-sheet where others join it.
@@ -77,7 +77,7 @@ class PairedSeeds {
             return 0;
         }
         const double covered = task_.sizes.spacing() * std::numbers::sqrt2 / 2;
-        double way = way_freedom * task_.sizes.at(complex_.points[v]);
+        double way = pair_way * task_.sizes.at(complex_.points[v]);
         for (const std::uint32_t t : star_[v]) {
             way = std::min(way, covered - terratet::covering_radius(corners(complex_, t)));
             for (const std::uint32_t w : complex_.triangles[t]) {

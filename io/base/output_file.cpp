@@ -88,7 +88,7 @@ void require_replaceable(const std::string& path, const std::string& target, boo
                     ": it is not a regular file; outputs are written beside their place and renamed");
     }
     if (!overwrite) {
-        throw Error(path + " exists; give --overwrite to replace it");
+        throw Error(path + " exists; give `overwrite` to replace it");
     }
 }
 
@@ -213,7 +213,7 @@ std::uint64_t OutputFile::commit() {
     const std::lock_guard lock(outputs().mutex);
     if (const int refused = move_into_place(temporary_, target_, overwrite_)) {
         if (refused == EEXIST) {
-            throw Error(path_ + " exists now, though it did not before; give --overwrite to replace it");
+            throw Error(path_ + " exists now, though it did not before; give `overwrite` to replace it");
         }
         fail_writing(path_, refused);
     }

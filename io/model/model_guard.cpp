@@ -266,7 +266,7 @@ void Guard::check_objects() {
             }
         } else if (is_protected(name)) {
             if (type != "table" || objects.integer(3) <= 0) {
-                refuse("`" + name + "` must be a table; it is a " + (type == "table" ? "virtual table" : type));
+                refuse("layer `" + name + "` must be a table; it is a " + (type == "table" ? "virtual table" : type));
             }
             found_.insert(lower_case(name));
         }

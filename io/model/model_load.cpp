@@ -394,7 +394,7 @@ void ModelReader::require_counts_and_digest(const MetaContent& meta, const LoadO
         return;
     }
     const char* const remedy =
-        "; models change through terratet edit only. --accept-edited takes one that was edited on purpose, if it still "
+        "; models change through terratet edit only. `accept_edited` takes one that was edited on purpose, if it still "
         "keeps all that terratet check verifies";
     if (meta.digest.empty()) {
         throw InputError(file_ + ": the digest that vouches for its rows is missing" + remedy);

@@ -387,7 +387,7 @@ void save_in_database(const std::string& path, const Model& model, const Journal
     }
     if (!overwrite && dataset->GetLayerByName(schema::meta)) {
         throw Error(path +
-                    " holds a model already; give --overwrite to replace it, or another schema (active_schema=…)");
+                    " holds a model already; give `overwrite` to replace it, or another schema (active_schema=…)");
     }
     scope.clear();
     write_transaction(dataset, scope, path, model, entry);

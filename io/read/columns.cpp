@@ -48,7 +48,7 @@ void require_known_meanings(const ColumnNames& overrides) {
             for (const char* name : meaning_names) {
                 known += (known.empty() ? "" : ", ") + std::string(name);
             }
-            throw UsageError("--columns " + meaning + "=" + column + ": no such meaning; there are " + known);
+            throw UsageError("`columns` " + meaning + "=" + column + ": no such meaning; there are " + known);
         }
     }
 }
@@ -158,7 +158,7 @@ int find_column(const Table& table, Meaning meaning, const ColumnNames& override
     const int column = find_optional_column(table, meaning, overrides);
     const auto named = std::ranges::find(overrides, to_string(meaning), &ColumnNames::value_type::first);
     if (column < 0 && named != overrides.end()) {
-        throw UsageError("--columns " + named->first + "=" + named->second + ": " + table.file +
+        throw UsageError("`columns` " + named->first + "=" + named->second + ": " + table.file +
                          " has no such column; it has " + list(table.columns));
     }
     return column;

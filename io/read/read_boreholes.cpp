@@ -31,7 +31,7 @@ const std::string& header(const Table& table, int column) {
 int require_column(const Table& table, Meaning meaning, const ColumnNames& names) {
     const int column = find_column(table, meaning, names);
     if (column < 0) {
-        throw InputError(fmt::format("{}: no column for {}; columns: {}; name one with --columns {}=NAME", table.file,
+        throw InputError(fmt::format("{}: no column for {}; columns: {}; name one with `columns` {}=NAME", table.file,
                                      to_string(meaning), fmt::join(table.columns, ", "), to_string(meaning)));
     }
     return column;
@@ -54,7 +54,7 @@ void note_depth_unit(const Table& table, const Crs& collar_crs, const Crs& targe
                      Diagnostics& diagnostics) {
     if (inputs.depth_unit.empty() && depth_factor(collar_crs, target, "") != 1) {
         diagnostics.note(
-            fmt::format("{}: depths along its holes are taken in {}, the unit of {} (--depth-unit says otherwise)",
+            fmt::format("{}: depths along its holes are taken in {}, the unit of {} (`depth_unit` says otherwise)",
                         table.file, collar_crs.geographic ? "metre" : collar_crs.unit, collar_crs.name));
     }
 }
@@ -99,8 +99,8 @@ DipConvention dip_convention(const Table& table, int column, DipConvention told,
         result = DipConvention::inclination;
         why = "by its name and values of 0 to 180";
     }
-    diagnostics.note(fmt::format("{}: column {} is read as {} ({}; --dip-convention says otherwise)", table.file, name,
-                                 describe(result), why));
+    diagnostics.note(
+        fmt::format("{}: column {} is read as {} ({}; `dip` says otherwise)", table.file, name, describe(result), why));
     return result;
 }
 

@@ -46,7 +46,7 @@ Coordinates find_coordinates(const Table& table, const ColumnNames& columns) {
             present += (present.empty() ? "" : ", ") + name;
         }
         throw InputError(table.file + ": no column for " + absent + "; it has " + present +
-                         "; name them with --columns, as in --columns x=EASTING");
+                         "; name them with `columns`, as in `columns` x=EASTING");
     }
     return result;
 }

@@ -65,14 +65,14 @@ PositionColumns choose_columns(const Table& table, const ColumnNames& names, Dia
         const Meaning lacking = columns.x < 0 ? Meaning::x : Meaning::y;
         throw InputError(
             fmt::format("{}: no column for {} and no point geometry; columns: {}; name one with "
-                        "--columns {}=NAME",
+                        "`columns` {}=NAME",
                         table.file, to_string(lacking), fmt::join(table.columns, ", "), to_string(lacking)));
     }
     const bool asked = names_column(names, Meaning::x) || names_column(names, Meaning::y);
     if (columns.plane() && geometry && !table.crs.empty() && !asked && differ(table, columns)) {
         diagnostics.note(
             fmt::format("{}: columns {} and {} differ from the points of the layer, which are used "
-                        "(--columns x={} y={} takes the columns)",
+                        "(`columns` x={} y={} takes the columns)",
                         table.file, header(table, columns.x), header(table, columns.y), header(table, columns.x),
                         header(table, columns.y)));
         columns.x = columns.y = -1;
@@ -83,7 +83,7 @@ PositionColumns choose_columns(const Table& table, const ColumnNames& names, Dia
     if (!heights) {
         throw InputError(
             fmt::format("{}: no column for the height (Z, ELEV, RL, …) and no height in a geometry; columns: "
-                        "{}; name one with --columns z=NAME",
+                        "{}; name one with `columns` z=NAME",
                         table.file, fmt::join(table.columns, ", ")));
     }
     return columns;

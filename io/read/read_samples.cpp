@@ -38,7 +38,7 @@ LogColumns log_columns(const Table& table, const ColumnNames& names) {
         columns.to = -1;
     }
     if (columns.id < 0 || columns.from < 0) {
-        throw InputError(fmt::format("{}: no column for {}; columns: {}; name {} with --columns", table.file,
+        throw InputError(fmt::format("{}: no column for {}; columns: {}; name {} with `columns`", table.file,
                                      columns.id < 0 ? "the hole's id" : "depths, neither from and to nor depth",
                                      fmt::join(table.columns, ", "),
                                      columns.id < 0 ? "one (id=NAME)" : "them (from=NAME, to=NAME or depth=NAME)"));

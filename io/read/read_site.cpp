@@ -38,7 +38,7 @@ class Checkpoint {
     void pass(double fraction) const {
         if (strict_ && diagnostics_.rejected.size() > seen_) {
             const Rejected& first = diagnostics_.rejected[seen_];
-            throw InputError(fmt::format("{}, line {}: {} (--strict)", first.file, first.line, first.reason));
+            throw InputError(fmt::format("{}, line {}: {} (`strict`)", first.file, first.line, first.reason));
         }
         report_progress(progress_, "read", fraction);
     }
@@ -126,7 +126,7 @@ void require_named_columns(const SiteInputs& inputs, const Inputs& read) {
         const auto in_placed = [&](const PlacedTable& placed) { return in_table(placed.table); };
         if (std::ranges::none_of(read.collars, in_placed) && std::ranges::none_of(read.surveys, in_table) &&
             std::ranges::none_of(read.logs, in_table) && std::ranges::none_of(read.samples, in_placed)) {
-            throw UsageError(fmt::format("--columns {}={}: no table has such a column", named.first, named.second));
+            throw UsageError(fmt::format("`columns` {}={}: no table has such a column", named.first, named.second));
         }
     }
 }
@@ -300,7 +300,7 @@ double chosen_z_scale(const Site& site, const Crs& target, Diagnostics& diagnost
         diagnostics.note(
             fmt::format("the data are {:.3g} times as wide as high: they are tessellated as if {:g} times as high, "
                         "where lengths and "
-                        "shapes are judged (--z-scale; 1 leaves them as they are)",
+                        "shapes are judged (`z_scale`; 1 leaves them as they are)",
                         flatness(box), scale));
     }
     return scale;
@@ -314,7 +314,7 @@ void localize(Site& site, const Crs& target, double z_scale) {
     for_each_position(site, [&](Vec3& point) {
         point = site.frame.snapped(site.frame.to_local(point));
         if (!is_acceptable(point)) {
-            throw UsageError("--z-scale " + std::to_string(z_scale) + " takes heights beyond " +
+            throw UsageError("`z_scale` " + std::to_string(z_scale) + " takes heights beyond " +
                              std::to_string(max_coordinate) + "; use a smaller one");
         }
     });
@@ -326,11 +326,11 @@ bool surface_before(const Surface& a, const Surface& b) {
 
 void require_consistent(const SiteInputs& inputs) {
     if (inputs.boreholes.empty() && (!inputs.surveys.empty() || !inputs.logs.empty())) {
-        throw UsageError("surveys and logs need the positions of their holes: name the collar table with --boreholes");
+        throw UsageError("surveys and logs need the positions of their holes: name the collar table with `boreholes`");
     }
     if (inputs.boreholes.empty() && inputs.samples.empty() && inputs.faults.empty() && inputs.surfaces.empty() &&
         inputs.topography.empty()) {
-        throw UsageError("no input: give --boreholes with --log, or --samples");
+        throw UsageError("no input: give `boreholes` with `logs`, or `samples`");
     }
 }
 

@@ -103,7 +103,7 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         }
         if (2 * numbers < filled) {
             diagnostics.note(
-                fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; --property {} "
+                fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; `properties` {} "
                             "takes them, {}:categorical takes all as classes",
                             table.file, name, numbers, filled, name, name));
             continue;
@@ -130,7 +130,7 @@ std::vector<Choice> wanted_columns(const Table& table, const std::vector<Propert
         }
         const auto column = static_cast<std::size_t>(found - table.columns.begin());
         if (property.kind == Kind::continuous && std::ranges::none_of(table.cells[column], is_number)) {
-            throw InputError(fmt::format("{}: column {} holds no number; for classes write --property {}:categorical",
+            throw InputError(fmt::format("{}: column {} holds no number; for classes write `properties` {}:categorical",
                                          table.file, *found, property.name));
         }
         result.push_back({property, column});
@@ -259,7 +259,7 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
         wanted_.empty() ? numeric_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
     if (choices.empty() && wanted_.empty()) {
         throw InputError(
-            fmt::format("{}: no numeric column to take for a property; columns: {}; --property "
+            fmt::format("{}: no numeric column to take for a property; columns: {}; `properties` "
                         "NAME:categorical takes a column of classes",
                         table.file, fmt::join(table.columns, ", ")));
     }
@@ -282,7 +282,7 @@ std::vector<Property> PropertyCatalogue::finish(Samples& samples) {
         if (std::ranges::none_of(properties_, [&](const Property& known) {
                 return lower_case(known.name) == lower_case(property.name);
             })) {
-            throw UsageError(fmt::format("--property {}: no table has such a column; columns: {}", property.name,
+            throw UsageError(fmt::format("`properties` {}: no table has such a column; columns: {}", property.name,
                                          fmt::join(seen_columns_, ", ")));
         }
     }

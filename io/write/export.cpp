@@ -22,7 +22,7 @@ constexpr Format formats[] = {
     {"VDB", ".vdb", write_vdb}, {"CSV", ".csv", write_csv},
 };
 
-constexpr const char* choices = ".vtu, .glb, .gltf, .vdb and .csv, or --of VTU, GLTF, VDB or CSV";
+constexpr const char* choices = ".vtu, .glb, .gltf, .vdb and .csv, or `format` VTU, GLTF, VDB or CSV";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),

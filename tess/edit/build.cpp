@@ -63,7 +63,7 @@ void canonicalise(Site& site, BuildReport& report) {
 void require_paired_bounds(const Model& model) {
     for (const Surface& surface : model.surfaces) {
         if (is_bound(surface.kind) && model.barrier_options.mode != SeedMode::paired) {
-            throw UsageError("--" + std::string(to_string(surface.kind)) + " needs --fault-mode paired");
+            throw UsageError("`" + std::string(to_string(surface.kind)) + "` needs `barriers.mode` paired");
         }
     }
 }
@@ -115,7 +115,7 @@ void require_ground(const Model& model, const BuildReport& report) {
         text << "the topography covers " << 100 * share << " % of the "
              << (model.domain.outline.empty() ? "extent" : "domain")
              << "'s area, once each place: it must cover all of "
-             << "it, between bottom and top; choose an --extent within it";
+             << "it, between bottom and top; choose an `extent` within it";
         throw InputError(text.str());
     }
 }
@@ -136,7 +136,7 @@ void require_walls(const Model& model, const std::vector<BarrierAccount>& accoun
     if (std::abs(there - wanted) <= 0.01 * wanted) {
         return;
     }
-    std::string why = "give a finer --fault-spacing, or smooth the polygon";
+    std::string why = "give a finer `barriers.spacing`, or smooth the polygon";
     for (const BarrierAccount& account : accounts) {
         if (account.kind == SurfaceKind::domain && !account.used) {
             why = "a part of it " + account.reason;
@@ -229,12 +229,12 @@ void name_regions(const BuildOptions& options, Model& model) {
         const std::int32_t block = blocks.at(named.point);
         if (block < 0) {
             throw UsageError(
-                "--region-name: the point that names '" + named.name +
+                "`region_names`: the point that names '" + named.name +
                 "' lies in no region: it is outside the extent or the domain, above the ground, or on a fault");
         }
         const auto [other, fresh] = name_of.try_emplace(block, named.name);
         if (!fresh) {
-            throw UsageError("--region-name: '" + other->second + "' and '" + named.name + "' name the same region");
+            throw UsageError("`region_names`: '" + other->second + "' and '" + named.name + "' name the same region");
         }
     }
 }

@@ -45,7 +45,7 @@ void draw_outline(const BuildOptions& options, Model& model, BuildReport& report
     if (model.domain.outline.empty()) {
         text << domain->file << ": the domain's area, " << drawn.area_in
              << ", is less than the square of the fault spacing, " << spacing
-             << "; is its coordinate system right (srs=)? Else give a smaller --fault-spacing";
+             << "; is its coordinate system right (srs=)? Else give a smaller `barriers.spacing`";
         throw InputError(text.str());
     }
     if (drawn.corners < drawn.corners_in) {
@@ -104,7 +104,7 @@ void note_far_off(const SiteBox& site, const Model& model, BuildReport& report) 
         note.precision(10);
         note << world.x << ", " << world.y << ", " << world.z << ")"
              << (world.x == 0 && world.y == 0 ? ": no coordinates?" : ": are its coordinates right?")
-             << " Resolution and extent do not follow it; give an --extent that does if it is meant";
+             << " Resolution and extent do not follow it; give an `extent` that does if it is meant";
         report.diagnostics.note(note.str());
     }
     if (!few) {
@@ -117,7 +117,7 @@ void suggest_z_scale(const Box3& data, const Model& model, BuildReport& report) 
     if (const double scale = suitable_z_scale(data); scale > 1) {
         std::ostringstream note;
         note.precision(3);
-        note << "the data are " << flatness(data) << " times as wide as high; consider --z-scale "
+        note << "the data are " << flatness(data) << " times as wide as high; consider `z_scale` "
              << model.frame.z_scale * scale;
         report.diagnostics.note(note.str());
     }
@@ -129,7 +129,7 @@ void resolve_resolution(const BuildOptions& options, Model& model, BuildReport& 
     const SiteBox site = site_box(model, model.frame.metres_per_unit);
     const Box3& data = site.box;
     if (data.empty() && options.extent.empty()) {
-        throw InputError("there is nothing to build from: no usable sample or borehole, and no --extent");
+        throw InputError("there is nothing to build from: no usable sample or borehole, and no `extent`");
     }
     const double diagonal = (options.extent.empty() ? data : options.extent).diagonal();
     model.criteria = options.criteria;
@@ -154,8 +154,8 @@ void resolve_resolution(const BuildOptions& options, Model& model, BuildReport& 
     const Vec3 size = extent.size();
     if (std::min({size.x, size.y, size.z}) < model.criteria.l_min) {
         throw UsageError("the extent (" + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " +
-                         std::to_string(size.z) + ") is thinner than --lmin " + std::to_string(model.criteria.l_min) +
-                         "; give a larger --extent or --pad, or a smaller --lmin");
+                         std::to_string(size.z) + ") is thinner than `l_min` " + std::to_string(model.criteria.l_min) +
+                         "; give a larger `extent` or `pad`, or a smaller `l_min`");
     }
     model.domain.extent = model.domain.hull = extent;
     note_far_off(site, model, report);

@@ -90,19 +90,19 @@ void require_affordable(const Model& model, const BuildOptions& options) {
     text.precision(3);
     text << "the criteria ask for at least " << demand.total() << " vertices in the extent of ";
     const Vec3 size = model.frame.to_world_size(model.domain.extent.size());
-    text << size.x << " x " << size.y << " x " << size.z << ", more than --max-vertices " << options.refine.max_vertices
+    text << size.x << " x " << size.y << " x " << size.z << ", more than `max_vertices` " << options.refine.max_vertices
          << " (by default what fits into memory): ";
     if (demand.seeds > limit / 2) {
         const double spacing = options.barriers.spacing > 0 ? options.barriers.spacing : model.criteria.l_min;
-        text << "a --fault-spacing of " << rounded_up(spacing * std::sqrt(2 * demand.seeds / limit));
+        text << "a `barriers.spacing` of " << rounded_up(spacing * std::sqrt(2 * demand.seeds / limit));
     } else if (model.criteria.v_max > 0 && demand.edges > filling(model.domain.hull.volume(), model.criteria.l_max)) {
-        text << "a --vmax of " << rounded_up(2 * model.criteria.v_max * demand.edges / limit);
+        text << "a `v_max` of " << rounded_up(2 * model.criteria.v_max * demand.edges / limit);
     } else {
         const double longer = std::max(std::cbrt(2 * demand.edges / limit), std::sqrt(2 * demand.grid / limit));
         const double l_max = rounded_up(model.criteria.l_max * std::max(1.0, longer));
-        text << "an --lmax of " << l_max << " (with an --lmin of a quarter of it)";
+        text << "an `l_max` of " << l_max << " (with an `l_min` of a quarter of it)";
     }
-    text << " may fit, or a smaller --extent";
+    text << " may fit, or a smaller `extent`";
     throw UsageError(text.str());
 }
 

@@ -45,7 +45,7 @@ ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain,
         blocks_->of_override.push_back(names_block(part) ? blocks_->at(part.point) : -1);
         if (names_block(part) && blocks_->of_override.back() < 0) {
             throw UsageError(
-                "--resolution: the point that names a fault block lies in none: it is outside the extent, "
+                "`overrides`: the point that names a fault block lies in none: it is outside the extent, "
                 "or on a fault");
         }
     }

@@ -24,10 +24,10 @@ void require_limit(double value, double smallest, const std::string& option) {
 }
 
 void require_resolution(double l_min, double l_max, const std::string& where) {
-    require(std::isfinite(l_min) && l_min > 0, "--lmin must be a positive length" + where);
-    require(std::isfinite(l_max) && l_max > 0, "--lmax must be a positive length" + where);
+    require(std::isfinite(l_min) && l_min > 0, "`l_min` must be a positive length" + where);
+    require(std::isfinite(l_max) && l_max > 0, "`l_max` must be a positive length" + where);
     require(l_max >= l_min,
-            "--lmax (" + std::to_string(l_max) + ") is below --lmin (" + std::to_string(l_min) + ")" + where);
+            "`l_max` (" + std::to_string(l_max) + ") is below `l_min` (" + std::to_string(l_min) + ")" + where);
 }
 
 }  // namespace
@@ -39,20 +39,20 @@ bool Criteria::has_variation() const {
 void validate(const Criteria& criteria) {
     require_resolution(criteria.l_min, criteria.l_max, "");
     for (const ResolutionOverride& part : criteria.overrides) {
-        require_resolution(part.l_min, part.l_max, ", also in --resolution");
+        require_resolution(part.l_min, part.l_max, ", also in `overrides`");
         require(part.where == ResolutionOverride::Where::block || part.box.volume() > 0,
-                "--resolution: the box has no volume");
+                "`overrides`: the box has no volume");
     }
-    require_limit(criteria.radius_edge, 1, "--radius-edge");
-    require_limit(criteria.aspect, 3, "--aspect");
-    require_limit(criteria.v_min, 0, "--vmin");
-    require_limit(criteria.v_max, 0, "--vmax");
+    require_limit(criteria.radius_edge, 1, "`radius_edge`");
+    require_limit(criteria.aspect, 3, "`aspect`");
+    require_limit(criteria.v_min, 0, "`v_min`");
+    require_limit(criteria.v_max, 0, "`v_max`");
     require(std::isfinite(criteria.dihedral_deg) && criteria.dihedral_deg >= 0 && criteria.dihedral_deg < 70.5,
-            "--dihedral must lie in 0…70.5 degrees, the regular cell's");
+            "`dihedral_deg` must lie in 0…70.5 degrees, the regular cell's");
     for (const VariationLimits& limits : criteria.variation) {
-        require_limit(limits.df_min, 0, "--df-min");
-        require_limit(limits.df_max, 0, "--df-max");
-        require(limits.df_max == 0 || limits.df_min <= limits.df_max, "--df-min is above --df-max");
+        require_limit(limits.df_min, 0, "`df_min`");
+        require_limit(limits.df_max, 0, "`df_max`");
+        require(limits.df_max == 0 || limits.df_min <= limits.df_max, "`df_min` is above `df_max`");
     }
 }
 

@@ -176,10 +176,10 @@ TEST_CASE("R-trees, styles and statistics that other programs add are taken as t
 TEST_CASE("Without a digest, or with another, a model is refused unless it is taken as edited") {
     Attack attack;
     const std::string remove = "DELETE FROM terratet_meta WHERE key = 'digest'";
-    CHECK_THAT(attack.message(remove, false), Contains("digest") && Contains("missing") && Contains("--accept-edited"));
+    CHECK_THAT(attack.message(remove, false), Contains("digest") && Contains("missing") && Contains("`accept_edited`"));
     CHECK(attack.message(remove, true) == "loaded");
     CHECK_THAT(attack.message("UPDATE samples SET Cu = 0.5 WHERE fid = 1", false),
-               Contains("digest differs") && Contains("--accept-edited"));
+               Contains("digest differs") && Contains("`accept_edited`"));
     CHECK(attack.message("UPDATE samples SET Cu = 0.5 WHERE fid = 1", true) == "loaded");
 }
 

@@ -387,7 +387,7 @@ TEST_CASE("What is no model is refused with its reason") {
     }
     CHECK_FALSE(is_model(path));
     CHECK_THROWS_WITH(load_model(path), Contains("no Terratet model") && Contains("terratet_meta"));
-    CHECK_THROWS_WITH(save_model(path, plain_model(), entry), Contains("m.gpkg exists") && Contains("--overwrite"));
+    CHECK_THROWS_WITH(save_model(path, plain_model(), entry), Contains("m.gpkg exists") && Contains("`overwrite`"));
     CHECK_THROWS_WITH(save_model(folder / "none/m.gpkg", plain_model(), entry), Contains("no folder"));
     Model latin = plain_model();
     latin.boreholes[1].id = "Bj\xF6rk";

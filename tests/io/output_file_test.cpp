@@ -78,8 +78,8 @@ TEST_CASE("An existing output is refused without overwrite, and replaced with it
     const std::string path = folder / "out.csv";
     put(path, "old");
     chmod(path.c_str(), 0640);
-    CHECK_THROWS_WITH(OutputFile(path, false), Contains("out.csv exists") && Contains("--overwrite"));
-    CHECK_THROWS_WITH(require_writable(path, false), Contains("out.csv exists") && Contains("--overwrite"));
+    CHECK_THROWS_WITH(OutputFile(path, false), Contains("out.csv exists") && Contains("`overwrite`"));
+    CHECK_THROWS_WITH(require_writable(path, false), Contains("out.csv exists") && Contains("`overwrite`"));
     CHECK_NOTHROW(require_writable(path, true));
     CHECK(content(path) == "old");
     OutputFile file(path, true);

@@ -167,7 +167,7 @@ TEST_CASE("swissgeol: semicolons, trailing separators, missing heights and coord
     CHECK(holes.counts.boreholes == 6);
     CHECK(holes.site.boreholes[0].id == "Unit_Test_1");
     CHECK(holes.site.frame.to_world(holes.site.boreholes[0].collar) == Vec3{2618962, 1144995, 640.7726659});
-    CHECK_THAT(error_of(collars("minimal_testdata.csv")), Contains("height") && Contains("--columns z="));
+    CHECK_THAT(error_of(collars("minimal_testdata.csv")), Contains("height") && Contains("`columns` z="));
     CHECK_THAT(error_of(collars("no_data_but_required_headers.csv")), Contains("no row"));
     CHECK_THAT(error_of(collars("not_a_json_file.csv")), Contains("no column for x"));
     SiteInputs empty = collars("maxValidationErrorsExceeded.csv");

@@ -135,7 +135,7 @@ TEST_CASE("requests that cannot be met are told apart from bad inputs") {
         }
         return std::string("no UsageError");
     };
-    CHECK_THAT(usage([](SiteInputs& i) { i.boreholes.clear(); }), Contains("--boreholes"));
+    CHECK_THAT(usage([](SiteInputs& i) { i.boreholes.clear(); }), Contains("`boreholes`"));
     CHECK_THAT(usage([](SiteInputs& i) { i = {}; }), Contains("no input"));
     CHECK_THAT(usage([](SiteInputs& i) { i.target_crs = "EPSG:4326"; }), Contains("degrees"));
     CHECK_THAT(usage([](SiteInputs& i) { i.target_crs = "EPSG:nope"; }), Contains("not understood"));

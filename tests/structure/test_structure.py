@@ -132,6 +132,27 @@ class Structure(unittest.TestCase):
         self.assertLessEqual(statistics.median(lines.values()), MEDIAN_FILE)
 
 
+def options_named(text):
+    """In string literals of a source. What is behind // is none, unless a literal holds the slashes."""
+    literals = re.findall(r'"(?:[^"\\\n]|\\.)*"|//.*', text)
+    return [name for literal in literals if literal[0] == '"' for name in re.findall(r"(?<![\w-])--[a-z][a-z-]*", literal)]
+
+
+class LibraryNamesItsFields(unittest.TestCase):
+    """Below tools there is no command line: messages name fields, in backticks, and tools knows the options."""
+
+    def test_no_string_of_the_library_names_an_option(self):
+        self.assertEqual([f"{path}: {name}" for floor in ("tess", "interp", "io")
+                          for path in sorted((ROOT / floor).rglob("*.[ch]pp"))
+                          for name in options_named(path.read_text())], [])
+
+    def test_reads_literals_only(self):
+        self.assertEqual(options_named('throw Error("raise --l-min, or"\n    "--pad");  // "--extent"\n--count;\n'),
+                         ["--l-min", "--pad"])
+        self.assertEqual(options_named('"a \\" --of"; x = "http://y"; z("(--strict)")'), ["--of", "--strict"])
+        self.assertEqual(options_named('"`l_min`, a--b, 1--2"; y = i--;'), [])
+
+
 class ReadsTheIncludes(unittest.TestCase):
     """The reader itself, on houses with one fault each."""
 

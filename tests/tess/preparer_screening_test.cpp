@@ -108,7 +108,7 @@ TEST_CASE("Walls that nowhere meet are two faults: the spacing is to blame, and 
     REQUIRE(coarse.barriers.size() == 1);
     const std::string& reason = coarse.accounts.at(1).reason;
     CHECK_THAT(reason, Contains("runs alongside fault 'F1' at a distance of 500"));
-    CHECK_THAT(reason, Contains("--fault-spacing of 660 keeps both"));
+    CHECK_THAT(reason, Contains("`barriers.spacing` of 660 keeps both"));
     BarrierOptions finer;
     finer.spacing = 660;
     CHECK(walls(500, finer).barriers.size() == 2);

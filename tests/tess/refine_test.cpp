@@ -73,7 +73,7 @@ TEST_CASE("A site without samples and without extent cannot be built, and says s
 TEST_CASE("Too many vertices are refused, naming the option") {
     testing::World world = random_world(5);
     world.options.refine.max_vertices = 150;
-    CHECK_THROWS_WITH(build_world(world), Catch::Contains("--max-vertices"));
+    CHECK_THROWS_WITH(build_world(world), Catch::Contains("`max_vertices`"));
 }
 
 TEST_CASE("More vertices than allowed that only refinement shows are refused as others are, with an l_min that fits") {
@@ -90,9 +90,9 @@ TEST_CASE("More vertices than allowed that only refinement shows are refused as 
     } catch (const UsageError& e) {
         message = e.what();
     }
-    CHECK_THAT(message, Catch::Contains("--max-vertices " + std::to_string(initial + 10)) &&
+    CHECK_THAT(message, Catch::Contains("`max_vertices` " + std::to_string(initial + 10)) &&
                             Catch::Contains("as refinement shows"));
-    const std::string before = "an --lmin of ";
+    const std::string before = "an `l_min` of ";
     const double wider = std::stod(message.substr(message.find(before) + before.size()));
     CHECK(wider > world.options.criteria.l_min);
 }

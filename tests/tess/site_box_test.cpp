@@ -137,13 +137,13 @@ TEST_CASE("More vertices than allowed are refused before any is made, naming the
     Model model;
     CHECK_THROWS_AS(built(site, options, model), UsageError);
     CHECK_THROWS_WITH(built(site, options, model),
-                      Catch::Contains("--lmax of") && Catch::Contains("--max-vertices 10000000"));
+                      Catch::Contains("`l_max` of") && Catch::Contains("`max_vertices` 10000000"));
 
     options.criteria = {};
     options.criteria.l_min = 100;
     site.surfaces = {testing::planar_fault("F", {500500, 6000500, -200}, 30, 70, 400, 200, 40)};
     options.barriers.spacing = 0.01;
-    CHECK_THROWS_WITH(built(site, options, model), Catch::Contains("--fault-spacing of"));
+    CHECK_THROWS_WITH(built(site, options, model), Catch::Contains("`barriers.spacing` of"));
 }
 
 TEST_CASE("What is known of the vertices beforehand is never more than comes of them") {

@@ -8,6 +8,7 @@
 
 #include "io/model_store.hpp"
 #include "tools/options/command.hpp"
+#include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
@@ -22,7 +23,7 @@ std::string as_json(const std::vector<Verdict>& verdicts) {
         list.push_back({{"guarantee", verdict.guarantee},
                         {"holds", verdict.holds},
                         {"statement", verdict.statement},
-                        {"detail", verdict.detail}});
+                        {"detail", with_options(verdict.detail)}});
     }
     return json_text(list);
 }
@@ -31,7 +32,7 @@ std::string as_lines(const std::vector<Verdict>& verdicts) {
     std::string out;
     for (const auto& verdict : verdicts) {
         out += fmt::format("{:4} {:7} {}{}\n", verdict.guarantee, verdict.holds ? "holds" : "BROKEN", verdict.statement,
-                           verdict.detail.empty() ? "" : " (" + printable(verdict.detail) + ")");
+                           verdict.detail.empty() ? "" : " (" + printable(with_options(verdict.detail)) + ")");
     }
     return out;
 }

@@ -12,6 +12,7 @@
 #include "tools/options/printable.hpp"
 #include "tools/options/run_options.hpp"
 #include "tools/options/site_options.hpp"
+#include "tools/report/diagnostics_json.hpp"
 #include "tools/report/validation.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/outputs.hpp"
@@ -117,18 +118,14 @@ class Validate final : public Command {
             return;
         }
         using Json = nlohmann::ordered_json;
-        Json rejected = Json::array();
-        for (const auto& record : diagnostics.rejected) {
-            rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
-        }
         const Json report{{"terratet", version},
                           {"input",
                            {{"boreholes", model.boreholes.size()},
                             {"samples", model.samples.size()},
                             {"faults", models_.empty() ? std::ranges::count_if(model.surfaces, is_fault)
                                                        : std::ssize(model.barriers)},
-                            {"rejected", rejected},
-                            {"notes", diagnostics.notes}}},
+                            {"rejected", rejected_json(diagnostics)},
+                            {"notes", notes_json(diagnostics)}}},
                           {"properties", validation_json(model, all)}};
         const std::string text = json_text(report);
         if (run_.report == "-") {

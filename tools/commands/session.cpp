@@ -14,6 +14,7 @@
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/command_line.hpp"
+#include "tools/options/field_names.hpp"
 #include "tools/options/help.hpp"
 #include "tools/options/json_usage.hpp"
 #include "tools/options/man_page.hpp"
@@ -31,7 +32,7 @@ namespace {
 class PrintableFormatter final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
-        const std::string text = printable({message.payload.data(), message.payload.size()}, true) + "\n";
+        const std::string text = printable(with_options({message.payload.data(), message.payload.size()}), true) + "\n";
         out.append(text.data(), text.data() + text.size());
     }
     [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
@@ -82,7 +83,7 @@ int dispatch(const std::vector<std::string>& arguments) {
 }
 
 int fail(int exit_code, const char* what) {
-    std::fprintf(stderr, "terratet: %s\n", printable(one_line(what)).c_str());
+    std::fprintf(stderr, "terratet: %s\n", printable(with_options(one_line(what))).c_str());
     return exit_code;
 }
 

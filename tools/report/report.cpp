@@ -10,8 +10,10 @@
 #include "io/base/output_file.hpp"
 #include "tess/barrier_query.hpp"
 #include "tess/mesh/quality.hpp"
+#include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
 #include "tools/report/calibration_json.hpp"
+#include "tools/report/diagnostics_json.hpp"
 #include "tools/run/process.hpp"
 #include "tools/version.hpp"
 
@@ -37,16 +39,12 @@ Json censored_json(const Model& model) {
 }
 
 Json input_json(const BuildRecord& build, const Model& model) {
-    Json rejected = Json::array();
-    for (const auto& record : build.diagnostics.rejected) {
-        rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", record.reason}});
-    }
     return {{"boreholes", build.counts.boreholes},
             {"samples", build.counts.samples},
             {"faults", build.counts.faults},
             {"censored", censored_json(model)},
-            {"rejected", rejected},
-            {"notes", build.diagnostics.notes}};
+            {"rejected", rejected_json(build.diagnostics)},
+            {"notes", notes_json(build.diagnostics)}};
 }
 
 Json faults_json(const std::vector<BarrierAccount>& accounts) {
@@ -56,7 +54,7 @@ Json faults_json(const std::vector<BarrierAccount>& accounts) {
                           {"kind", to_string(account.kind)},
                           {"file", account.file},
                           {"used", account.used},
-                          {"reason", account.reason},
+                          {"reason", with_options(account.reason)},
                           {"parts", account.parts},
                           {"seeds", account.seeds},
                           {"area_in", account.area_in},

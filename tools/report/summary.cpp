@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
 #include "tools/options/text.hpp"
 #include "tools/report/report.hpp"
@@ -14,7 +15,7 @@ std::string counted(std::uint64_t number, const std::string& thing) {
 }
 
 std::string line(const char* what, const std::string& text) {
-    return fmt::format("{:10}{}\n", what, wrapped(printable(text), 10, 10, 100));
+    return fmt::format("{:10}{}\n", what, wrapped(printable(with_options(text)), 10, 10, 100));
 }
 
 /// What of a clipped mesh is worse than it should be, and why.

@@ -28,14 +28,16 @@ void validate(const BarrierOptions& options, double l_min) {
         throw UsageError("fault width " + short_text(options.width) + " exceeds the fault spacing " +
                          short_text(spacing) +
                          ": the seeds of a pair must be nearer to each other than to the next pair; lower "
-                         "--fault-width");
+                         "`barriers.width`");
     }
     if (options.refine && options.mode != SeedMode::paired) {
-        throw UsageError("--fault-refine needs --fault-mode paired: triangles of unequal size are hard to certify");
+        throw UsageError(
+            "`barriers.refine` needs `barriers.mode` paired: triangles of unequal size are hard to certify");
     }
     if (!(options.snap <= 0.5 * spacing)) {
         throw UsageError("fault snap " + short_text(options.snap) + " exceeds half the fault spacing " +
-                         short_text(spacing) + ": rims would move farther than triangles are long; lower --fault-snap");
+                         short_text(spacing) +
+                         ": rims would move farther than triangles are long; lower `barriers.snap`");
     }
 }
 

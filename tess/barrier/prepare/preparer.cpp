@@ -203,7 +203,7 @@ std::optional<BarrierPreparer::Pass> BarrierPreparer::attempt() {
             if (bad[k] > unseparated * candidates_[k].area_inside) {
                 refuse(candidates_[k],
                        "bends too sharply at " + text_of(where[k]) +
-                           ": mirrored seeds cannot tell its sides apart there; use a finer --fault-spacing" +
+                           ": mirrored seeds cannot tell its sides apart there; use a finer `barriers.spacing`" +
                            (is_bound(candidates_[k].surface->kind) ? "" : " or the exact fault mode"));
                 refused = true;
             }
@@ -343,7 +343,7 @@ void BarrierPreparer::finish(const Pass& pass, BarrierPreparation& result) {
     }
     if (seeds > options_.max_seeds) {
         throw Error("the faults need " + std::to_string(seeds) + " seeds, and max_seeds allows " +
-                    std::to_string(options_.max_seeds) + ": raise --fault-spacing, or leave faults out");
+                    std::to_string(options_.max_seeds) + ": raise `barriers.spacing`, or leave faults out");
     }
     for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
         if (candidates_[k].active) {

@@ -234,7 +234,7 @@ std::string BarrierPreparer::reason_of(const Close& pair) const {
     }
     return "runs alongside " + described(larger) + " at a distance of " + short_text(rounded_down(pair.distance)) +
            " without meeting it, too near for the fault spacing " + short_text(scale_.spacing) +
-           ": a --fault-spacing of " + short_text(pair.spacing) +
+           ": a `barriers.spacing` of " + short_text(pair.spacing) +
            " keeps both, and auto finds it; if they are versions of one fault, keep one of them";
 }
 
@@ -273,7 +273,7 @@ void BarrierPreparer::check_budget() const {
     if (const double seeds = seeds_at(scale_.spacing); seeds > static_cast<double>(options_.max_seeds)) {
         throw Error("the faults need about " + short_text(seeds) + " seeds, most of them '" + largest->account.name +
                     "', and max_seeds allows " + std::to_string(options_.max_seeds) +
-                    ": raise --fault-spacing, or leave faults out");
+                    ": raise `barriers.spacing`, or leave faults out");
     }
 }
 

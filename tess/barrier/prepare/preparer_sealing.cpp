@@ -93,12 +93,13 @@ bool BarrierPreparer::refuse_leaking(const std::vector<Seal::Open>& open, const 
         const std::string place = text_of(leak.place);
         if (bounds(crossed) && bounds(other)) {
             crossed.account.reason =
-                "cannot be sealed at " + place + ": edges may cross it there; use a finer --fault-spacing";
+                "cannot be sealed at " + place + ": edges may cross it there; use a finer `barriers.spacing`";
         } else if (crossed.active && other.active) {
             const bool crossed_stays = bounds(crossed) || (!bounds(other) && other.area_inside < crossed.area_inside);
-            const std::string reason = "cannot be sealed at " + place +
-                                       ": edges would cross it there whatever its seeds; use a finer --fault-spacing" +
-                                       (options_.mode == SeedMode::paired ? " or the exact fault mode" : "");
+            const std::string reason =
+                "cannot be sealed at " + place +
+                ": edges would cross it there whatever its seeds; use a finer `barriers.spacing`" +
+                (options_.mode == SeedMode::paired ? " or the exact fault mode" : "");
             Candidate& stays = crossed_stays ? crossed : other;
             refuse(crossed_stays ? other : crossed, reason);
             if (hurries() && stays.active && !bounds(stays)) {

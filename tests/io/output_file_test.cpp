@@ -137,10 +137,14 @@ TEST_CASE("Places that cannot be written are refused with their reason") {
                           Contains("too long"));
     }
     CHECK(entries(folder.path()) == 0);
+}
+
+TEST_CASE("A folder that may not be written to is named before any work") {
     if (geteuid() != 0) {
-        WARN("not root: permissions not tested");
+        WARN("SKIPPED: not root");
         return;
     }
+    const testing::TemporaryFolder folder;
     REQUIRE(chmod(folder.path().c_str(), 0755) == 0);
     REQUIRE(seteuid(65534) == 0);
     std::string message;
@@ -157,7 +161,7 @@ TEST_CASE("Places that cannot be written are refused with their reason") {
 TEST_CASE("A full disk is reported as such and leaves nothing") {
     const testing::SmallDisk disk(1 << 20);
     if (!disk.mounted()) {
-        WARN("no right to mount: full disk not tested");
+        WARN("SKIPPED: no right to mount");
         return;
     }
     const std::string block(1 << 16, 'x');

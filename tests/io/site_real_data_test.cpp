@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 TEST_CASE("Babbitt: 399 holes in feet read whole, at the places an independent program finds") {
     const auto folder = testing::public_data("pygslib/doc/source/Tutorial_1/Babbitt");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     SiteInputs inputs;
@@ -72,7 +72,7 @@ TEST_CASE("Babbitt: 399 holes in feet read whole, at the places an independent p
 TEST_CASE("ddh_qaqc: our mid-points are those another program wrote beside the assays") {
     const auto folder = testing::public_data("ddh_qaqc/data");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     SiteInputs inputs;
@@ -98,7 +98,7 @@ TEST_CASE("Demo1 under other column names gives the site that ddh_qaqc gives") {
     const auto ours = testing::public_data("pygslib/pygslib/data/Demo1/data");
     const auto theirs = testing::public_data("ddh_qaqc/data");
     if (!ours || !theirs) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     const auto inputs = [](const std::filesystem::path& folder) {
@@ -120,7 +120,7 @@ TEST_CASE("Demo1 under other column names gives the site that ddh_qaqc gives") {
 TEST_CASE("workbooks: sheets of one file, classes, units from headers, tables without header") {
     const auto folder = testing::public_data("subsurface/tests/data/borehole");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     const std::string wells = (*folder / "wells-database-small.xlsx").string();
@@ -154,7 +154,7 @@ TEST_CASE("workbooks: sheets of one file, classes, units from headers, tables wi
 TEST_CASE("swissgeol: semicolons, trailing separators, missing heights and coordinates") {
     const auto folder = testing::public_data("swissgeol/tests/api/TestData");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     const auto collars = [&](const std::string& name) {
@@ -184,7 +184,7 @@ TEST_CASE("swissgeol: semicolons, trailing separators, missing heights and coord
 TEST_CASE("R6: Babbitt with its rows shuffled is the same site") {
     const auto folder = testing::public_data("pygslib/doc/source/Tutorial_1/Babbitt");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     testing::Random random(1);

@@ -273,7 +273,7 @@ TEST_CASE("a number is a whole cell, finite, and without locale") {
 TEST_CASE("headers and numbers of workbooks read well") {
     const auto folder = testing::public_data("subsurface/tests/data/borehole");
     if (!folder) {
-        WARN("public data absent: skipped");
+        WARN("SKIPPED: public data absent");
         return;
     }
     const Table collars = read_table({(*folder / "wells-database-small.xlsx").string(), "collar"});

@@ -107,7 +107,7 @@ bool rejected(const Result& result, std::int64_t line, const std::string& reason
 TEST_CASE("The SCEC community fault model reads whole, counted by another way") {
     const auto folder = testing::public_data("scec_cfm");
     if (!folder) {
-        WARN("public data not found: scec_cfm");
+        WARN("SKIPPED: public data not found: scec_cfm");
         return;
     }
     const Count total = check_folder(*folder);
@@ -120,7 +120,7 @@ TEST_CASE("TSurf files of LoopStructural and OpenGeode read whole, counted by an
     const auto loop = testing::public_data("loop_implicitbenchmark");
     const auto geode = testing::public_data("opengeode_gocad");
     if (!loop || !geode) {
-        WARN("public data not found: loop_implicitbenchmark, opengeode_gocad");
+        WARN("SKIPPED: public data not found: loop_implicitbenchmark, opengeode_gocad");
         return;
     }
     const Count a = check_folder(*loop);

@@ -122,7 +122,7 @@ std::size_t told_wrong(const std::vector<Barrier>& faults, int count) {
 TEST_CASE("F1: each fourth of 97 real faults alone is used or refused, and no foreign edge crosses the used") {
     const std::vector<Surface> surfaces = scec_surfaces();
     if (surfaces.empty()) {
-        WARN("public data scec_cfm is absent");
+        WARN("SKIPPED: public data scec_cfm is absent");
         return;
     }
     REQUIRE(surfaces.size() == 97);
@@ -142,7 +142,7 @@ TEST_CASE("F1: each fourth of 97 real faults alone is used or refused, and no fo
 TEST_CASE("F4: of 87 real faults with their alternative versions each is used, or refused for a reason") {
     std::vector<Surface> surfaces = scec_surfaces("scec_cfm/native");
     if (surfaces.empty()) {
-        WARN("public data scec_cfm is absent");
+        WARN("SKIPPED: public data scec_cfm is absent");
         return;
     }
     REQUIRE(surfaces.size() == 87);
@@ -202,7 +202,7 @@ std::string prepare_group(std::size_t number, SeedMode mode, double spacing) {
 
 TEST_CASE("F1, F4: of real neighbours, alternatives among them, some are used and nothing crosses them") {
     if (scec_surfaces().empty()) {
-        WARN("public data scec_cfm is absent");
+        WARN("SKIPPED: public data scec_cfm is absent");
         return;
     }
     prepare_group(5, SeedMode::exact, 6000);
@@ -211,7 +211,7 @@ TEST_CASE("F1, F4: of real neighbours, alternatives among them, some are used an
 
 TEST_CASE("F1, F4: so it is of thirty groups of 25 to 30 at half the spacing", "[.][long]") {
     if (scec_surfaces().empty()) {
-        WARN("public data scec_cfm is absent");
+        WARN("SKIPPED: public data scec_cfm is absent");
         return;
     }
     for (std::size_t number = 0; number < 30; ++number) {
@@ -236,7 +236,7 @@ TEST_CASE("F1, F2: fifteen real faults that meet make one conforming model, most
         }
     }
     if (surfaces.empty()) {
-        WARN("public data scec_cfm is absent");
+        WARN("SKIPPED: public data scec_cfm is absent");
         return;
     }
     REQUIRE(surfaces.size() == 15);

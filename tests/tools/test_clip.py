@@ -7,13 +7,14 @@ import subprocess
 import unittest
 
 from terratet import EXTENT, ROOT, Case, twin_inputs
-from test_real_data import SCEC, made_up_wells
 
 CHECKER = ROOT / "tests" / "readers" / "check_clipped.py"
 VTK_PYTHON = "/usr/bin/python3"  # Debian's python3-vtk9
 
 
-class Clip(Case):
+class ClipCase(Case):
+    """Clipped files and the report's account of them."""
+
     def check(self, name, extent, lmin, *arguments):
         result = subprocess.run([VTK_PYTHON, "-B", CHECKER, self.folder / name, "--extent", *map(str, extent), "--lmin",
                                  str(lmin), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
@@ -36,6 +37,8 @@ class Clip(Case):
             self.assertEqual(shapes["short_edges"], 0)
         self.assertEqual(account["other"], 0)
 
+
+class Clip(ClipCase):
     def test_cells_at_the_extent_are_as_good_as_others_and_have_the_models_values(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
         self.succeed("export", "m.gpkg", "whole.vtu")
@@ -62,21 +65,6 @@ class Clip(Case):
             for gap in ("keep", "collapse"):
                 account = self.export("clip.vtu", "--fault-gap", gap)
                 self.assert_good(self.check("clip.vtu", EXTENT.split(","), 60, "--open"), account)
-
-    @unittest.skipUnless(SCEC.exists(), "public data set scec_cfm is not there")
-    def test_real_faults_through_the_extent_leave_few_sharp_cells_and_all_are_counted(self):
-        files = [path for path in sorted(SCEC.rglob("*.ts"))
-                 if any(part in path.name for part in ("ORFZ-MULT-Oak_Ridge", "SCFZ-TOPA-San_Cayetano", "SSFZ-MULT-Santa_Susana"))]
-        collars, log = made_up_wells((225500, 3777000, 382700, 3828600), 40)
-        extent = (290000, 3790000, -12000, 350000, 3815000, 0)
-        self.succeed("build", "--boreholes", self.write("collar.csv", collars), "--log", self.write("log.csv", log),
-                     *[argument for path in files[:3] for argument in ("--faults", path)], "-s_srs", "EPSG:32611", "-te", *extent,
-                     "--property", "value", "--estimator", "idw", "--fault-spacing", "3000", "--lmin", "2500", "--lmax", "10000", "--z-scale", "1", "-o", "m.gpkg")
-        account = self.export("clip.vtu")
-        shapes = self.check("clip.vtu", extent, 2500)
-        for key in ("cells", "below_1_deg", "below_10_deg", "short_edges"):
-            self.assertEqual(shapes[key], account[key], key)
-        self.assertLess(account["other"] + account["as_tessellated"], 0.001 * shapes["cells"])
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ struct CellStatistics {
     double dihedral_p1_deg = 0;
     double dihedral_p5_deg = 0;
     double dihedral_median_deg = 0;
-    double edge_min = 0;  ///< of these cells
+    double edge_min = 0;  ///< of all cells in the extent, gap cells too
     double edge_max = 0;
     std::size_t regions = 0;
 

@@ -39,11 +39,17 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
     double longest = 0;
     std::vector<float> dihedrals;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (cells.barrier[c] >= 0) {
-            ++s.gap_tetrahedra;
+        const bool gap = cells.barrier[c] >= 0;
+        s.gap_tetrahedra += gap ? 1 : 0;
+        if (cells.in_extent[c] == 0) {
             continue;
         }
-        if (cells.in_extent[c] == 0) {
+        for (const auto& [i, j] : cell_edges) {
+            const double d = squared_distance(mesh.points[mesh.cells[c][i]], mesh.points[mesh.cells[c][j]]);
+            shortest = std::min(shortest, d);
+            longest = std::max(longest, d);
+        }
+        if (gap) {
             continue;
         }
         const bool is_skinny = model.criteria.radius_edge > 0 && cells.radius_edge[c] > model.criteria.radius_edge;
@@ -60,11 +66,6 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
         }
         s.below_v_min +=
             model.criteria.v_min > 0 && cell_quality(cell_points(mesh, mesh.cells[c])).volume < model.criteria.v_min;
-        for (const auto& [i, j] : cell_edges) {
-            const double d = squared_distance(mesh.points[mesh.cells[c][i]], mesh.points[mesh.cells[c][j]]);
-            shortest = std::min(shortest, d);
-            longest = std::max(longest, d);
-        }
     }
     std::ranges::sort(dihedrals);
     s.skinny_percent = percent(skinny, dihedrals.size());
@@ -74,7 +75,7 @@ CellStatistics cell_statistics(const Model& model, const TetMesh& mesh, const Ce
     s.dihedral_p1_deg = quantile(dihedrals, 0.01);
     s.dihedral_p5_deg = quantile(dihedrals, 0.05);
     s.dihedral_median_deg = quantile(dihedrals, 0.5);
-    s.edge_min = dihedrals.empty() ? 0 : std::sqrt(shortest);
+    s.edge_min = std::isinf(shortest) ? 0 : std::sqrt(shortest);
     s.edge_max = std::sqrt(longest);
     return s;
 }

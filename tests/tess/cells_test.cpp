@@ -94,6 +94,28 @@ TEST_CASE("Percentages count what their names say") {
     CHECK(skinny > 0);
 }
 
+TEST_CASE("Edges are those of all cells in the extent, in a fault's gap too") {
+    auto world = quiet_world({testing::planar_fault("through", {150, 150, -100}, 0, 90, 500, 400, 15)});
+    world.options.barriers.width = 3;
+    const auto built = testing::build_world(world);
+    const TetMesh mesh = tessellate(built.model).mesh();
+    const CellTable table = describe_cells(built.model, mesh);
+    double shortest = 1e9;
+    double longest = 0;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        for (std::size_t i = 0; table.in_extent[c] != 0 && i < 4; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double length = distance(mesh.points[mesh.cells[c][i]], mesh.points[mesh.cells[c][j]]);
+                shortest = std::min(shortest, length);
+                longest = std::max(longest, length);
+            }
+        }
+    }
+    CHECK(built.report.final.edge_min == Approx(shortest));
+    CHECK(built.report.final.edge_max == Approx(longest));
+    CHECK(built.report.final.edge_min < 3.1);  // a pair of seeds
+}
+
 TEST_CASE("Refinement leaves few bad cells where the criteria can be met") {
     const auto built = testing::build_world(quiet_world({}));
     CHECK(built.report.initial.bad_percent > 50);

@@ -10,13 +10,9 @@
 /// weights, times the lever makes up for it: whatever the weights, linear fields come out exactly, and as the gradients
 /// belong to the sites the estimate is as continuous as the weights are.
 ///
-/// A site's gradient is fitted by least squares to the differences zⱼ − zᵢ of what the site sees, each counted by
-/// openness over distance: ring by ring of natural neighbours, at least two rings or 64 sites, on until the directions
-/// are determined: their spread (the root of the sum of squares) along each axis is at least a thirtieth of that along
-/// the widest; where the rings end, up to four more in each octant, wherever they are. What the site sees past a
-/// fault's end, on the other side of the fault, counts only where the rest does not do. Where nothing does, the slope
-/// is 0 along the axes that stay undetermined: the plane of least slope. All in the coordinates of the estimator's
-/// anisotropy.
+/// A site's gradient is fitted by least squares to the differences zⱼ − zᵢ of what the site sees around it
+/// (surroundings.hpp), each counted by openness over distance. Along axes that nothing determines the slope is 0: the
+/// plane of least slope. All in the coordinates of the estimator's anisotropy.
 ///
 /// Fitted when first needed, once a site, from the site's surroundings alone: const, reentrant, and the same whatever
 /// was asked before. 48 bytes a site and 32 more for each column, for those that were needed.
@@ -35,11 +31,16 @@
 
 namespace terratet {
 
+class SitesThickness;
+
 class Slopes {
   public:
     /// \param columns  values at the sites, by the numbers the caller knows them by, all finite; they and `sites` must
     ///                 outlive this
     Slopes(const SiteMesh& sites, std::vector<std::span<const double>> columns);
+    Slopes(const Slopes&) = delete;
+    Slopes& operator=(const Slopes&) = delete;
+    ~Slopes();
 
     struct Part {
         double value = 0;
@@ -68,8 +69,9 @@ class Slopes {
     SheetSides sides_;
     std::vector<std::span<const double>> columns_;
     std::vector<std::int32_t> vertex_of_;  ///< of each of the caller's sites
-    mutable std::once_flag stars_wanted_;
+    mutable std::once_flag wanted_;
     mutable std::unique_ptr<const Stars> stars_;
+    mutable std::unique_ptr<const SitesThickness> thickness_;
     std::unique_ptr<std::atomic<std::uint8_t>[]> states_;
     std::unique_ptr<Shape[]> shapes_;  ///< of each site
     std::unique_ptr<Slope[]> slopes_;  ///< of each site, by column

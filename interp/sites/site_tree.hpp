@@ -33,6 +33,7 @@ struct Neighbourhood {
     double radius = std::numeric_limits<double>::infinity();
     std::uint32_t per_octant = 0;
     std::uint32_t per_borehole = 0;
+    std::size_t max_looked_at = std::numeric_limits<std::size_t>::max();  ///< points nearest first, taken or not
 };
 
 class SiteTree {
@@ -184,12 +185,16 @@ void SiteTree::neighbourhood(const Vec3& query, const Neighbourhood& limits, con
     const auto borehole_of = [&](std::uint32_t slot) { return boreholes_.empty() ? -1 : boreholes_[slot]; };
     Shares shares(query, limits);
     queue.clear();
+    std::size_t looked_at = 0;
     push({squared_distance_to(nodes_[0].box, query), 0, false});
     while (!queue.empty() && out.size() < limits.max_points) {
         const Candidate candidate = queue.front();
         std::pop_heap(queue.begin(), queue.end(), order);
         queue.pop_back();
         if (candidate.is_point) {
+            if (++looked_at > limits.max_looked_at) {
+                break;
+            }
             const std::uint32_t slot = candidate.index;
             const int octant = shares.octant_of(point(slot));
             if (!shares.exhausted(octant, borehole_of(slot)) && usable(original_[slot])) {

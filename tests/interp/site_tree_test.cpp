@@ -108,6 +108,21 @@ TEST_CASE("A neighbourhood's limits are tested before visibility, the dear test"
     CHECK(taken > 2000);
 }
 
+TEST_CASE("A neighbourhood looks at no more points than it may, the nearest") {
+    const auto sites = uniform_sites(5000, 52);
+    const SiteTree tree(sites);
+    std::vector<NearSite> found, nearest;
+    std::vector<std::uint32_t> asked;
+    const auto refusing = [&](std::uint32_t i) { return asked.push_back(i), false; };
+    tree.neighbourhood({400, 500, 600}, {.max_looked_at = 70}, refusing, found);
+    tree.nearest({400, 500, 600}, 70, INFINITY, nearest);
+    REQUIRE(asked.size() == nearest.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        CHECK(asked[i] == nearest[i].site);
+    }
+    CHECK(found.empty());
+}
+
 TEST_CASE("Anisotropy turns and stretches as GSLIB does") {
     const Metric plain{{}};
     const Vec3 p{3, -4, 5};

@@ -84,6 +84,15 @@ inline std::vector<Vec3> cospherical_sites(int squared_radius) {
     return sites;
 }
 
+/// In a frame in which no axis lies in the plane of x and y, far from the origin.
+inline std::vector<Vec3> tilted(std::vector<Vec3> sites) {
+    const Vec3 u{2.0 / 3, 2.0 / 3, 1.0 / 3}, v{-2.0 / 3, 1.0 / 3, 2.0 / 3}, w{1.0 / 3, -2.0 / 3, 2.0 / 3};
+    for (Vec3& p : sites) {
+        p = Vec3{70'000, 50'000, -300} + p.x * u + p.y * v + p.z * w;
+    }
+    return sites;
+}
+
 template <typename T>
 std::vector<T> shuffled(std::vector<T> items, std::uint64_t seed) {
     Random random(seed);

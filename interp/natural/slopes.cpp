@@ -27,14 +27,9 @@ Slopes::Slopes(const SiteMesh& sites, std::vector<std::span<const double>> colum
     }
 }
 
-Slopes::~Slopes() = default;
-
 void Slopes::fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const {
-    std::call_once(wanted_, [&] {
-        stars_ = std::make_unique<const Stars>(sites_.tessellation());
-        thickness_ = std::make_unique<const SitesThickness>(sites_);
-    });
-    Surroundings surroundings(sites_, sides_, *stars_, *thickness_, site);
+    std::call_once(stars_wanted_, [&] { stars_ = std::make_unique<const Stars>(sites_.tessellation()); });
+    Surroundings surroundings(sites_, sides_, *stars_, site);
     const auto& seen = surroundings.look();
     shape = {};
     std::fill(slopes.begin(), slopes.end(), Slope{});

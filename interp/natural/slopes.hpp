@@ -31,16 +31,11 @@
 
 namespace terratet {
 
-class SitesThickness;
-
 class Slopes {
   public:
     /// \param columns  values at the sites, by the numbers the caller knows them by, all finite; they and `sites` must
     ///                 outlive this
     Slopes(const SiteMesh& sites, std::vector<std::span<const double>> columns);
-    Slopes(const Slopes&) = delete;
-    Slopes& operator=(const Slopes&) = delete;
-    ~Slopes();
 
     struct Part {
         double value = 0;
@@ -69,9 +64,8 @@ class Slopes {
     SheetSides sides_;
     std::vector<std::span<const double>> columns_;
     std::vector<std::int32_t> vertex_of_;  ///< of each of the caller's sites
-    mutable std::once_flag wanted_;
+    mutable std::once_flag stars_wanted_;
     mutable std::unique_ptr<const Stars> stars_;
-    mutable std::unique_ptr<const SitesThickness> thickness_;
     std::unique_ptr<std::atomic<std::uint8_t>[]> states_;
     std::unique_ptr<Shape[]> shapes_;  ///< of each site
     std::unique_ptr<Slope[]> slopes_;  ///< of each site, by column

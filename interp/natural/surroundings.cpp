@@ -35,55 +35,10 @@ Eigen::Matrix3d Spread::moments(std::span<const Seen> seen) {
     return sum;
 }
 
-SitesThickness::SitesThickness(const SiteMesh& sites) {
-    const auto points =
-        sites.tessellation().points().first(static_cast<std::size_t>(sites.tessellation().site_count()));
-    const auto from_first = [&](const Vec3& p) { return vector_of(p - points.front()); };
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Vec3& p : points) {
-        mean += from_first(p) / static_cast<double>(points.size());
-    }
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (const Vec3& p : points) {
-        const Eigen::Vector3d d = from_first(p) - mean;
-        moments += d * d.transpose();
-    }
-    axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
-    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
-    for (const Vec3& p : points) {
-        const Eigen::Vector3d along = axes_.transpose() * from_first(p);
-        low = low.cwiseMin(along);
-        high = high.cwiseMax(along);
-    }
-    thickness_ = high - low;
-}
-
-bool SitesThickness::nothing_left(Eigen::Matrix3d moments, double squared_distance) const {
-    // Where the sites are H thick along an axis, one at distance r adds along it at most H²/r² of what it adds to the
-    // trace, a third of which the widest has at least. What has too little along the axis, and is given no more by any
-    // further site than too little, stays so: the axis is then counted as wide.
-    const double share = spread_min * spread_min / 3, all = moments.trace();
-    bool thin = false;
-    for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d axis = axes_.col(i);
-        if (thickness_[i] * thickness_[i] <= share * squared_distance && axis.dot(moments * axis) <= share * all) {
-            thin = true;
-            moments += all * axis * axis.transpose();
-        }
-    }
-    return thin && Spread(moments).determines_all();
-}
-
 thread_local StampedSet Surroundings::number_;
 
-Surroundings::Surroundings(const SiteMesh& sites, const SheetSides& sides, const Stars& stars,
-                           const SitesThickness& thickness, std::int32_t site)
-    : sites_(sites),
-      sides_(sides),
-      stars_(stars),
-      thickness_(thickness),
-      points_(sites.tessellation().points()),
-      site_(site) {
+Surroundings::Surroundings(const SiteMesh& sites, const SheetSides& sides, const Stars& stars, std::int32_t site)
+    : sites_(sites), sides_(sides), stars_(stars), points_(sites.tessellation().points()), site_(site) {
     number_.clear(points_.size());
     number_.insert(site);
     ring_ = {site};
@@ -167,7 +122,25 @@ void Surroundings::look_farther() {
 
 bool Surroundings::enough() const {
     const Eigen::Matrix3d moments = Spread::moments(seen_);
-    return Spread(moments).determines_all() || thickness_.nothing_left(moments, reached_);
+    return Spread(moments).determines_all() || nothing_left(moments);
+}
+
+/// Is every axis determined but those along which no site at the last ring's distance or beyond would help?
+bool Surroundings::nothing_left(Eigen::Matrix3d moments) const {
+    // Where the sites are H thick along an axis, one at distance r adds along it at most H²/r² of what it adds to the
+    // trace, a third of which the widest has at least. What has too little along the axis, and is given no more by any
+    // further site than too little, stays so: the axis is then counted as wide.
+    const double share = spread_min * spread_min / 3, all = moments.trace();
+    const PrincipalBox& box = sites_.principal_box();
+    bool thin = false;
+    for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d axis = vector_of(box.axis(i));
+        if (box.thickness(i) * box.thickness(i) <= share * reached_ && axis.dot(moments * axis) <= share * all) {
+            thin = true;
+            moments += all * axis * axis.transpose();
+        }
+    }
+    return thin && Spread(moments).determines_all();
 }
 
 /// Is it seen?

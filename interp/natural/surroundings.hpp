@@ -48,26 +48,10 @@ class Spread {
     double least_;
 };
 
-/// How thick all the sites together are, along the axes of their spread.
-class SitesThickness {
-  public:
-    /// O(sites).
-    explicit SitesThickness(const SiteMesh& sites);
-
-    /// Do sites with these moments (Spread) determine all axes but those that no site at this distance or beyond helps
-    /// to determine?
-    [[nodiscard]] bool nothing_left(Eigen::Matrix3d moments, double squared_distance) const;
-
-  private:
-    Eigen::Matrix3d axes_;
-    Eigen::Vector3d thickness_;
-};
-
 /// For one site, used once.
 class Surroundings {
   public:
-    Surroundings(const SiteMesh& sites, const SheetSides& sides, const Stars& stars, const SitesThickness& thickness,
-                 std::int32_t site);
+    Surroundings(const SiteMesh& sites, const SheetSides& sides, const Stars& stars, std::int32_t site);
 
     const std::vector<Seen>& look();
     /// How many sites it was asked of whether they are seen.
@@ -78,6 +62,7 @@ class Surroundings {
     bool look_at_ring(std::size_t ring);
     bool next_ring();
     [[nodiscard]] bool enough() const;
+    [[nodiscard]] bool nothing_left(Eigen::Matrix3d moments) const;
     bool ask(std::int32_t vertex);
     void take_across();
     [[nodiscard]] const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
@@ -85,7 +70,6 @@ class Surroundings {
     const SiteMesh& sites_;
     const SheetSides& sides_;
     const Stars& stars_;
-    const SitesThickness& thickness_;
     std::span<const Vec3> points_;
     std::int32_t site_;
     static thread_local StampedSet number_;

@@ -13,6 +13,7 @@
 namespace terratet {
 namespace {
 
+constexpr double box_margin = 0.05;       // in diagonals, that cells reach beyond the sites' box on any side
 constexpr double sites_share_min = 1e-6;  // below it, what is left of the sites' weights is rounding
 
 std::vector<Vec3> permuted(const std::vector<Vec3>& places, const std::vector<std::uint32_t>& order) {
@@ -49,9 +50,25 @@ SiteMesh::SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, 
     : original_(morton_order(at)),
       places_(anisotropy.isotropic() ? std::vector<Vec3>() : permuted(sites, original_)),
       mesh_(permuted(at, original_)),
+      principal_(mesh_.points().first(sites.size())),
       barriers_(barriers && !barriers->empty() ? barriers : nullptr),
       index_(places_.empty() ? mesh_.points().first(sites.size()) : std::span<const Vec3>(places_), barriers,
              anisotropy) {}
+
+/// A plane of samples has all of them for neighbours of a place above it, so the place's foot on the plane stands for
+/// it. The principal box's corners may lie beyond the reach of cells: from there towards the sites' mean.
+Vec3 SiteMesh::within_tilted(const Vec3& at) const {
+    const Vec3 foot = principal_.clamped(at);
+    const Vec3& mean = principal_.mean();
+    const Box3 box = mesh_.box().grown(box_margin * mesh_.box().diagonal());
+    double part = 1;
+    for (int i = 0; i < 3; ++i) {
+        const double away = foot[i] - mean[i];
+        const double room = away > 0 ? box.hi[i] - mean[i] : mean[i] - box.lo[i];
+        part = std::abs(away) > room ? std::min(part, room / std::abs(away)) : part;
+    }
+    return part < 1 ? mean + part * (foot - mean) : foot;
+}
 
 double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {
     return barriers_ ? barriers_->openness(from, place(vertex)) : 1;

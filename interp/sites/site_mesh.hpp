@@ -18,6 +18,7 @@
 #include "interp/anisotropy.hpp"
 #include "interp/estimator/estimator.hpp"
 #include "interp/sites/compact_delaunay.hpp"
+#include "interp/sites/principal_box.hpp"
 #include "interp/sites/site_index.hpp"
 #include "tess/barrier_query.hpp"
 
@@ -27,7 +28,7 @@ namespace terratet {
 struct SiteQuery {
     Vec3 place;
     Vec3 at;
-    Vec3 within;  ///< the nearest place of the sites' box, whose shares it has
+    Vec3 within;  ///< the place of the sites' box whose shares it has: the nearest, or about
 };
 
 class SiteMesh {
@@ -41,8 +42,10 @@ class SiteMesh {
     [[nodiscard]] const CompactDelaunay& tessellation() const { return mesh_; }
     [[nodiscard]] SiteQuery query(const Vec3& place) const {
         const Vec3 at = index_.metric()(place);
-        return {place, at, mesh_.box().clamped(at)};
+        return {place, at, principal_.flat_and_tilted() ? within_tilted(at) : mesh_.box().clamped(at)};
     }
+    /// Of the sites in the tessellation's coordinates.
+    [[nodiscard]] const PrincipalBox& principal_box() const { return principal_; }
     /// The barriers; null for none.
     [[nodiscard]] const BarrierQuery* barriers() const { return barriers_; }
 
@@ -86,6 +89,7 @@ class SiteMesh {
     /// \param at  the sites in the tessellation's coordinates
     SiteMesh(const std::vector<Vec3>& sites, const std::vector<Vec3>& at, const BarrierQuery* barriers,
              const Anisotropy& anisotropy);
+    [[nodiscard]] Vec3 within_tilted(const Vec3& at) const;
     void nearest_visible(const SiteQuery& q, Weights& out) const;
     /// Round barriers. \param most  that of one that is visible
     [[nodiscard]] double way_to_site(const SiteQuery& q, double most) const;
@@ -93,6 +97,7 @@ class SiteMesh {
     std::vector<std::uint32_t> original_;
     std::vector<Vec3> places_;  ///< of the sites, in the tessellation's order; empty: as in the tessellation
     CompactDelaunay mesh_;
+    PrincipalBox principal_;
     const BarrierQuery* barriers_;
     SiteIndex index_;
 };

@@ -48,6 +48,44 @@ TEST_CASE("E3: among samples on lattices, planes, lines and spheres zones are ha
     }
 }
 
+TEST_CASE("E3: among samples on a tilted plane or line zones are hardly larger than among jittered ones") {
+    for (const auto& [name, sites, limit] : regular_sites(10'000)) {
+        if (name != "plane" && name != "line") {
+            continue;
+        }
+        auto places = tilted(places_around(sites, 300));
+        const auto in_box = places_in(bounding_box(tilted(sites)), 300, 7);  // most of them far from a plane
+        places.insert(places.end(), in_box.begin(), in_box.end());
+        const double regular = mean_zone(tilted(sites), places), irregular = mean_zone(tilted(jittered(sites)), places);
+        CAPTURE(name, regular, irregular);
+        CHECK(regular <= limit * irregular);
+    }
+}
+
+TEST_CASE("Around samples on a tilted plane or line places have shares of a place of it, and samples their own") {
+    Random random(8);
+    std::vector<Vec3> triangle, line;
+    for (int i = 0; i < 300; ++i) {
+        const double u = random(), v = random();
+        triangle.push_back({1000 * std::min(u, v), 1000 * std::max(u, v), 0});
+        line.push_back({1000 * u, 0, 0});
+    }
+    const Vec3 origin = tilted({{0, 0, 0}})[0], along_line = tilted({{1, 0, 0}})[0] - origin,
+               normal = tilted({{0, 0, 1}})[0] - origin;
+    for (const bool on_line : {false, true}) {
+        const auto sites = tilted(on_line ? line : triangle);
+        const SiteMesh mesh(sites, nullptr);
+        for (const Vec3& site : sites) {
+            CHECK(mesh.query(site).within == site);
+        }
+        for (const Vec3& place : places_in(bounding_box(sites).grown(700), 500, 9)) {
+            const Vec3 within = mesh.query(place).within, d = within - origin;
+            CHECK(mesh.tessellation().within_reach(within));
+            CHECK((on_line ? length(cross(d, along_line)) : std::abs(dot(d, normal))) < 1e-4);
+        }
+    }
+}
+
 TEST_CASE("E3: beyond a plane of samples the zones do not grow with the plane") {
     const auto zone_beyond = [](int side) {
         const auto sites = square_sites(side, 10);

@@ -23,10 +23,9 @@ Looks look_around(const std::vector<Vec3>& sites, const BarrierQuery* barriers =
     const SiteMesh mesh(sites, barriers);
     const SheetSides sides(mesh);
     const Stars stars(mesh.tessellation());
-    const SitesThickness thickness(mesh);
     Looks out;
     for (std::int32_t site = 0; site < mesh.tessellation().site_count(); site += 7) {
-        Surroundings surroundings(mesh, sides, stars, thickness, site);
+        Surroundings surroundings(mesh, sides, stars, site);
         const auto& seen = surroundings.look();
         const Spread spread(seen);
         const int axes = spread.determines(0) + spread.determines(1) + spread.determines(2);
@@ -38,15 +37,6 @@ Looks look_around(const std::vector<Vec3>& sites, const BarrierQuery* barriers =
         }
     }
     return out;
-}
-
-/// In a frame in which no axis lies in the sites' plane, far from the origin.
-std::vector<Vec3> tilted(std::vector<Vec3> sites) {
-    const Vec3 u{2.0 / 3, 2.0 / 3, 1.0 / 3}, v{-2.0 / 3, 1.0 / 3, 2.0 / 3}, w{1.0 / 3, -2.0 / 3, 2.0 / 3};
-    for (Vec3& p : sites) {
-        p = Vec3{70'000, 50'000, -300} + p.x * u + p.y * v + p.z * w;
-    }
-    return sites;
 }
 
 std::vector<Vec3> undulating(std::vector<Vec3> sites, double height) {

@@ -41,8 +41,8 @@ class LiveModel {
         return snapshot()->neighbours_of(borehole);
     }
 
-    /// What the estimator knows about its values becomes further properties of the vertices (interp/plan/uncertainty.hpp),
-    /// and the model keeps how far errors go.
+    /// What the estimator knows about its values becomes further properties of the vertices
+    /// (interp/plan/uncertainty.hpp), and the model keeps how far errors go.
     void add_uncertainty();
 
     /// Takes a surface of that name out and builds again with all else as it was. Throws UsageError when there is none.

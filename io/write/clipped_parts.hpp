@@ -13,9 +13,9 @@ namespace terratet {
 /// \param points of all places
 void keep_to_own_sides(const Model& model, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts);
 
-/// The cells that were cut get better shapes (tess/mending/mend_cells.hpp). Samples and seeds stay where they are, as do the
-/// sheets of faults, but that where a sheet meets the extent its facets may end at other points of it. Points that are
-/// moved become places of their own. Facets are not kept up.
+/// The cells that were cut get better shapes (tess/mending/mend_cells.hpp). Samples and seeds stay where they are, as
+/// do the sheets of faults, but that where a sheet meets the extent its facets may end at other points of it. Points
+/// that are moved become places of their own. Facets are not kept up.
 void mend_clipped(const ModelView& view, ClippedMesh& mesh, const Progress& progress);
 
 /// Of all resolutions that are asked for.

@@ -17,7 +17,7 @@ FLOORS = {
     "io": ["base", "read", "model", "write"],
     "tools": ["options", "run", "report", "commands"],
 }
-LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE = 450, 4500, 110
+LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE, LONGEST_LINE = 450, 4500, 110, 120
 
 
 def stem(path):
@@ -119,6 +119,17 @@ def installed(root):
     return public
 
 
+def long_lines(name, text):
+    """Those of code and prose. In Markdown a table's row, an example and a link cannot be broken."""
+    found, example = [], False
+    for number, line in enumerate(text.splitlines(), 1):
+        example ^= line.lstrip().startswith("```")
+        whole = name.endswith(".md") and (example or re.match(r"\s*\||    |\s*(\S+ )?\S*\]\(\S+\)\S*$", line))
+        if len(line) > LONGEST_LINE and not whole:
+            found.append(f"{name}:{number}: {len(line)} characters")
+    return found
+
+
 class Structure(unittest.TestCase):
     house = House(ROOT, FLOORS)
 
@@ -130,6 +141,23 @@ class Structure(unittest.TestCase):
         self.assertEqual([f"{path}: {n}" for path, n in lines.items() if n > LONGEST_FILE], [])
         self.assertEqual([f"{room}: {n}" for room, n in self.house.rooms().items() if n > LARGEST_ROOM], [])
         self.assertLessEqual(statistics.median(lines.values()), MEDIAN_FILE)
+
+    def test_lines_end_at_120_characters(self):
+        files = [path for folder in [*FLOORS, "tests"] for path in (ROOT / folder).rglob("*.[ch]pp")]
+        files += [*ROOT.glob("docs/*.md"), ROOT / "CONTRIBUTING.md", *ROOT.glob("data/*/README.md")]  # not docs/commands: made
+        long = [found for path in sorted(files) for found in long_lines(str(path.relative_to(ROOT)), path.read_text("utf-8"))]
+        self.assertEqual(long, [])
+
+
+class FindsLongLines(unittest.TestCase):
+    def test_in_code_and_in_prose_by_characters(self):
+        self.assertEqual(long_lines("a.cpp", "é" * 120 + "\n" + "// |" + "x" * 120), ["a.cpp:2: 124 characters"])
+        self.assertEqual(long_lines("a.md", "word " * 30), ["a.md:1: 150 characters"])
+
+    def test_but_not_in_tables_examples_and_links(self):
+        text = "\n".join(["| " + "x " * 80, "```", "$ " + "x " * 80, "```", "    " + "x " * 80,
+                          "* [words](https://" + "x" * 130 + ")"])
+        self.assertEqual(long_lines("a.md", text), [])
 
 
 def options_named(text):

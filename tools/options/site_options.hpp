@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io/read_site.hpp"
 #include "io/read/read_table.hpp"
+#include "io/read_site.hpp"
 #include "tools/options/option.hpp"
 
 namespace terratet::tools {
@@ -49,8 +49,8 @@ SiteInputs site_inputs(const SiteArguments& arguments, bool strict);
 /// All files that are named as inputs, as they were given.
 std::vector<std::string> input_paths(const SiteArguments& arguments);
 
-/// Composites the logs if --composite asks for it (interp/plan/composite.hpp), and notes what came of it. Throws UsageError
-/// for what is no length above 0.
+/// Composites the logs if --composite asks for it (interp/plan/composite.hpp), and notes what came of it. Throws
+/// UsageError for what is no length above 0.
 void composite_as_asked(Site& site, const SiteArguments& arguments, Diagnostics& diagnostics);
 
 }  // namespace terratet::tools

@@ -35,6 +35,11 @@ struct Surface {
     friend bool operator==(const Surface&, const Surface&) = default;
 };
 
+/// The one order of surfaces: by name, then by area, then by corners and triangles as they are given, then by kind and
+/// file. So where a file lies does not matter, nor, but for equal areas, the order of what is in it. O(1) for different
+/// names, else O(n).
+bool canonical_before(const Surface& a, const Surface& b);
+
 struct SurfaceStatistics {
     double area = 0;
     double dip_mean_deg = 0;       ///< area-weighted mean of the triangles' dips, 0 horizontal … 90 vertical

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "io/read/read_boreholes.hpp"
 #include "io/read/read_positions.hpp"
@@ -320,10 +319,6 @@ void localize(Site& site, const Crs& target, double z_scale) {
     });
 }
 
-bool surface_before(const Surface& a, const Surface& b) {
-    return std::tie(a.kind, a.name, a.vertices, a.triangles) < std::tie(b.kind, b.name, b.vertices, b.triangles);
-}
-
 void require_consistent(const SiteInputs& inputs) {
     if (inputs.boreholes.empty() && (!inputs.surveys.empty() || !inputs.logs.empty())) {
         throw UsageError("surveys and logs need the positions of their holes: name the collar table with `boreholes`");
@@ -369,7 +364,7 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
     }
     localize(site, target, inputs.z_scale > 0 ? inputs.z_scale : chosen_z_scale(site, target, diagnostics));
     site.samples = selected(site.samples, canonical_order(site.samples));
-    std::ranges::sort(site.surfaces, surface_before);
+    std::ranges::stable_sort(site.surfaces, canonical_before);
 
     counts.boreholes = site.boreholes.size();
     counts.samples = site.samples.size();

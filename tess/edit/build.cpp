@@ -34,7 +34,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_;
 };
 
-/// Boreholes by id, samples in canonical order and without coincident ones, surfaces by name and content.
+/// Boreholes by id, samples in canonical order and without coincident ones, surfaces in theirs.
 void canonicalise(Site& site, BuildReport& report) {
     std::vector<std::int32_t> order(site.boreholes.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -53,9 +53,7 @@ void canonicalise(Site& site, BuildReport& report) {
     }
     site.samples = selected(site.samples, canonical_order(site.samples));
     report.coincident = merge_coincident(site.samples, site.properties).merged;
-    std::ranges::stable_sort(site.surfaces, [](const Surface& a, const Surface& b) {
-        return std::tie(a.name, a.vertices, a.triangles) < std::tie(b.name, b.vertices, b.triangles);
-    });
+    std::ranges::stable_sort(site.surfaces, canonical_before);
 }
 
 /// Throws UsageError for a topography or a domain in exact mode: its seeds cannot meet on the surface

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace terratet {
@@ -20,7 +21,30 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// A horizontal direction is undefined where the mean normal leans from the vertical by less than rounding can tell.
 constexpr double least_lean = 1e-12;
 
+/// Triangles without a usable corner count for nothing: surfaces are put in order before they are repaired.
+double area(const Surface& surface) {
+    double twice = 0;
+    for (const Triangle& t : surface.triangles) {
+        if (std::ranges::all_of(
+                t, [&](std::uint32_t v) { return v < surface.vertices.size() && is_finite(surface.vertices[v]); })) {
+            const Vec3& a = surface.vertices[t[0]];
+            twice += length(cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a));
+        }
+    }
+    return twice / 2;
+}
+
 }  // namespace
+
+bool canonical_before(const Surface& a, const Surface& b) {
+    if (a.name != b.name) {
+        return a.name < b.name;
+    }
+    const double area_a = area(a);
+    const double area_b = area(b);
+    return std::tie(area_a, a.vertices, a.triangles, a.kind, a.file) <
+           std::tie(area_b, b.vertices, b.triangles, b.kind, b.file);
+}
 
 SurfaceStatistics statistics(const Surface& surface) {
     SurfaceStatistics result;

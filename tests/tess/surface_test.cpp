@@ -243,3 +243,31 @@ TEST_CASE("A polygon that crosses itself, repeats a corner or has no area gives 
     CHECK(triangulate_polygon(std::vector<std::vector<Vec3>>{{{0, 0, 0}, {1, 0, 5}, {0, 1, 2}}}) ==
           std::vector<Triangle>{{0, 1, 2}});
 }
+
+TEST_CASE(
+    "Surfaces of one name have one order, whatever the order of their corners and triangles, and where they lie") {
+    Surface small = triangulate_in_best_fit_plane("f", grid({{500, 0, 0}, 40, 70}, 5, 6, 10));
+    Surface large = triangulate_in_best_fit_plane("f", grid({{0, 0, 0}, 60, 120}, 8, 6, 10));
+    small.file = "z.ts";
+    large.file = "a.ts";
+    testing::Random random(3);
+    for (int i = 0; i < 20; ++i) {
+        CHECK(canonical_before(small, large));
+        CHECK_FALSE(canonical_before(large, small));
+        CHECK_FALSE(canonical_before(small, small));
+        for (Surface* surface : {&small, &large}) {
+            std::ranges::reverse(surface->vertices);
+            const auto last = static_cast<std::uint32_t>(surface->vertices.size()) - 1;
+            for (Triangle& t : surface->triangles) {
+                t = {last - t[2], last - t[0], last - t[1]};
+            }
+            std::swap(surface->triangles[random.below(surface->triangles.size())], surface->triangles.front());
+            std::swap(surface->file, surface == &small ? large.file : small.file);
+        }
+    }
+    large.name = "e";
+    CHECK(canonical_before(large, small));
+    Surface broken = small;
+    broken.triangles.push_back({0, 1, 1000000});
+    CHECK_FALSE(canonical_before(broken, broken));
+}

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "tess/barrier/complex/clip_sheet.hpp"
 #include "tess/barrier/complex/measure_sheet.hpp"
@@ -111,11 +110,8 @@ void BarrierPreparer::repair() {
         screen(candidate);
         candidates_.push_back(std::move(candidate));
     }
-    std::ranges::stable_sort(candidates_, [](const Candidate& a, const Candidate& b) {
-        return std::tie(a.surface->name, a.surface->file, a.account.area_in, a.surface->vertices,
-                        a.surface->triangles) <
-               std::tie(b.surface->name, b.surface->file, b.account.area_in, b.surface->vertices, b.surface->triangles);
-    });
+    std::ranges::stable_sort(
+        candidates_, [](const Candidate& a, const Candidate& b) { return canonical_before(*a.surface, *b.surface); });
 }
 
 void BarrierPreparer::screen(Candidate& candidate) {

@@ -5,6 +5,8 @@
 /// How near the tessellation's field comes to what was measured.
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tess/model.hpp"
@@ -18,7 +20,10 @@ struct Fidelity {
     double max = 0;
     std::size_t count = 0;
 };
-std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh,
-                               const BarrierQuery& barriers);  ///< one per property
+
+/// One per property. The field at a sample is what a voxel there would show, beside barriers too
+/// (tess/barrier/query/own_side.hpp). `mesh` and `barriers` are the model's own, `gap` is CellRegions::barrier.
+std::vector<Fidelity> fidelity(const Model& model, const TetMesh& mesh, std::span<const std::int32_t> gap,
+                               const BarrierQuery& barriers);
 
 }  // namespace terratet

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <tuple>
 
+#include "tess/barrier/query/own_side.hpp"
 #include "tess/barrier_query.hpp"
 #include "tess/error.hpp"
+#include "tess/mesh/gap_cell.hpp"
 #include "tess/mesh/mesh_walk.hpp"
 #include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
@@ -115,7 +117,7 @@ MeshField adaptive(const AnalyticSite& site, BuildReport& report) {
 }
 
 MeshField field_of(const Model& model) {
-    return {tessellate(model).mesh(), model.vertices, model.vertex_values.values[0]};
+    return {tessellate(model).mesh(), model.vertices, model.vertex_values.values[0], model.barriers};
 }
 
 std::vector<Vec3> nodes(const GridField& grid) {
@@ -222,16 +224,22 @@ std::vector<Vec3> probes(const Box3& box, std::size_t count) {
 
 std::vector<double> errors(const MeshField& field, const AnalyticSite& site, std::span<const Vec3> places) {
     MeshWalk walk(field.mesh);
+    std::vector<std::int32_t> gap;
+    for (const auto& cell : field.mesh.cells) {
+        gap.push_back(gap_barrier(cell, field.vertices));
+    }
+    const BarrierQuery barriers(field.barriers);
+    const OwnSide sides(field.mesh, gap, barriers);
     std::vector<double> result;
     for (const Vec3& p : places) {
-        auto position = walk.locate(p);
+        const auto position = walk.locate(p);
         if (!position) {
             throw Error("the mesh does not cover the extent");
         }
-        keep_to_own_side(*position, p, field.mesh, field.vertices);
+        const VertexWeights own = sides.at(position->cell, p, position->weights);
         double value = 0;
         for (std::size_t k = 0; k < 4; ++k) {
-            value += position->weights[k] * field.values[field.mesh.cells[position->cell][k]];
+            value += own.weights[k] * field.values[own.vertices[k]];
         }
         result.push_back(value - site.field(p));
     }

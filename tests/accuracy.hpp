@@ -29,11 +29,12 @@ AnalyticSite smooth_trend(double scale, int wells = 5);
 AnalyticSite thin_layer(double scale, int wells = 5);
 AnalyticSite raised_zone(double scale, int wells = 5);
 
-/// A tetrahedral mesh with a value at each vertex.
+/// A tetrahedral mesh with a value at each vertex, and what parts it.
 struct MeshField {
     TetMesh mesh;
     std::vector<Vertex> vertices;
     std::vector<double> values;
+    std::vector<Barrier> barriers;
 };
 
 /// Values on the nodes of a grid that covers a box from face to face.

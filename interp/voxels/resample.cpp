@@ -65,16 +65,15 @@ std::vector<Vec3> to_voxel_indices(const std::vector<Vec3>& points, const Lattic
     return result;
 }
 
-bool has_value(const LinearField& field, std::size_t cell) {
+/// Where a cell reaches across a barrier, the side with values is enough.
+bool has_value(const LinearField& field, std::uint32_t cell) {
     if (!field.use_cell.empty() && field.use_cell[cell] == 0) {
         return false;
     }
-    for (const std::uint32_t v : field.mesh->cells[cell]) {
-        if (std::isnan(field.vertex_values[v])) {
-            return false;
-        }
-    }
-    return true;
+    const auto valued = [&](std::uint32_t v) { return !std::isnan(field.vertex_values[v]); };
+    const auto& corners = field.mesh->cells[cell];
+    return field.sides != nullptr && field.sides->concerns(cell) ? std::ranges::any_of(corners, valued)
+                                                                 : std::ranges::all_of(corners, valued);
 }
 
 /// Tiles along each axis that a cell's bounding box has voxels in; empty when lo > hi.
@@ -83,7 +82,7 @@ struct TileRange {
     std::array<std::int32_t, 3> hi{-1, -1, -1};
 };
 
-TileRange tiles_of(const Job& job, std::size_t cell) {
+TileRange tiles_of(const Job& job, std::uint32_t cell) {
     if (!has_value(job.field, cell)) {
         return {};
     }
@@ -120,7 +119,7 @@ Bins bin_cells(const Job& job) {
     std::vector<TileRange> ranges(n);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 16384), [&](const auto& part) {
         for (std::size_t c = part.begin(); c != part.end(); ++c) {
-            ranges[c] = tiles_of(job, c);
+            ranges[c] = tiles_of(job, static_cast<std::uint32_t>(c));
         }
     });
     Bins bins;
@@ -177,30 +176,17 @@ void fill_linear(const PlacedCell& cell, float* tile) {
     });
 }
 
-/// Voxel by voxel, for what is not one linear function: categories, and gap cells.
+/// Voxel by voxel, for what is not one linear function: categories, and gap cells. Where there is no value, what
+/// another cell gave stays.
 template <class Value>
 void fill_voxels(const ScanCell& shape, float* tile, Value&& value) {
     scan(shape, [&](int x, int y, int za, int zb) {
         float* row = tile + (x * Tile::edge + y) * Tile::edge;
         for (int z = za; z <= zb; ++z) {
-            row[z] = static_cast<float>(value(Vec3{double(x), double(y), double(z)}));
+            const double found = value(Vec3{double(x), double(y), double(z)});
+            row[z] = std::isnan(found) ? row[z] : static_cast<float>(found);
         }
     });
-}
-
-/// The class of the largest weight; of equal ones the smaller class.
-double dominant_class(const std::array<double, 4>& weight, const std::array<double, 4>& value) {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < 4; ++k) {
-        if (weight[k] > weight[best] || (weight[k] == weight[best] && value[k] < value[best])) {
-            best = k;
-        }
-    }
-    return value[best];
-}
-
-double weighted_mean(const std::array<double, 4>& weight, const std::array<double, 4>& value) {
-    return weight[0] * value[0] + weight[1] * value[1] + weight[2] * value[2] + weight[3] * value[3];
 }
 
 /// A gap cell: each voxel from the vertices that it sees.
@@ -226,8 +212,7 @@ void fill_own_sides(const Job& job, std::uint32_t number, const PlacedCell& cell
         for (std::size_t k = 0; k < 4; ++k) {
             value[k] = job.field.vertex_values[own.vertices[k]];
         }
-        return job.field.categorical && !std::isnan(own.weights[0]) ? dominant_class(own.weights, value)
-                                                                    : weighted_mean(own.weights, value);
+        return mixed(own.weights, value, job.field.categorical);
     });
 }
 
@@ -272,7 +257,7 @@ void fill_tile(const Job& job, std::span<const std::uint32_t> cells, const std::
             fill_own_sides(job, *it, cell, first_voxel, values.data());
         } else if (field.categorical) {
             fill_voxels(cell.shape, values.data(),
-                        [&](const Vec3& p) { return dominant_class(barycentric(cell.shape, p), cell.value); });
+                        [&](const Vec3& p) { return mixed(barycentric(cell.shape, p), cell.value, true); });
         } else {
             fill_linear(cell, values.data());
         }

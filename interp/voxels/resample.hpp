@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "interp/lattice.hpp"
-#include "tess/model.hpp"
 #include "tess/barrier/query/own_side.hpp"
+#include "tess/model.hpp"
 #include "tess/progress.hpp"
 
 namespace terratet {
@@ -34,10 +34,10 @@ class TileSink {
 /// The linear fields to sample: cells with a value at each of their vertices.
 struct LinearField {
     const TetMesh* mesh = nullptr;
-    std::span<const double> vertex_values{};   ///< in the property's scale; NaN: the cell is left out
+    std::span<const double> vertex_values{};   ///< in the property's scale; NaN: no value in its cells
     std::span<const std::uint8_t> use_cell{};  ///< one per cell; empty: all
     const OwnSide* sides =
-        nullptr;               ///< when given, cells that reach across a barrier take the voxel's own side's values
+        nullptr;  ///< when given, cells that reach across a barrier take the voxel's own side's values, if it has any
     bool log10 = false;        ///< write 10^value
     bool categorical = false;  ///< write the class of the largest barycentric weight
 };

@@ -352,7 +352,7 @@ void describe(TessellatedModel& built, BuildReport& report) {
         }
     }
     report.fault_crossing_edges = fault_crossing_edges(built.model, built.mesh, *built.barriers).size();
-    report.fidelity = fidelity(built.model, built.mesh, *built.barriers);
+    report.fidelity = fidelity(built.model, built.mesh, built.cells.barrier, *built.barriers);
     report.empty_blocks = empty_blocks(built.model, built.mesh, built.cells);
     report.final = cell_statistics(built.model, built.mesh, built.cells, *built.barriers);
 }

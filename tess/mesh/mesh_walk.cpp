@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "tess/mesh/gap_cell.hpp"
-
 namespace terratet {
 
 namespace {
@@ -59,24 +57,6 @@ std::optional<CellPosition> MeshWalk::locate(const Vec3& p) {
         }
     }
     return std::nullopt;
-}
-
-void keep_to_own_side(CellPosition& position, const Vec3& p, const TetMesh& mesh, std::span<const Vertex> vertices) {
-    const auto& cell = mesh.cells[position.cell];
-    if (gap_barrier(cell, vertices) < 0) {
-        return;
-    }
-    const std::uint32_t nearest =
-        *std::ranges::min_element(cell, {}, [&](std::uint32_t v) { return squared_distance(mesh.points[v], p); });
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        double& w = position.weights[k];
-        w = vertices[cell[k]].side == vertices[nearest].side ? std::max(0.0, w) : 0;
-        sum += w;
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-        position.weights[k] = sum > 0 ? position.weights[k] / sum : (cell[k] == nearest ? 1 : 0);
-    }
 }
 
 }  // namespace terratet

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Point location in a flat mesh and linear interpolation in its cells. Private to this floor.
+/// Point location in a flat mesh and linear interpolation in its cells.
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "tess/tessellation.hpp"
 
@@ -31,9 +30,5 @@ class MeshWalk {
     const TetMesh& mesh_;
     std::uint32_t last_ = 0;
 };
-
-/// In a gap cell a point takes its value from its own side of the fault: the weights of the vertices on the side of the
-/// vertex nearest to p, renormalised. In any other cell the weights stay as they are.
-void keep_to_own_side(CellPosition& position, const Vec3& p, const TetMesh& mesh, std::span<const Vertex> vertices);
 
 }  // namespace terratet

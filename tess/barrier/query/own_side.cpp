@@ -3,6 +3,7 @@
 #include "tess/barrier/query/own_side.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,23 @@ constexpr double least_weight = 1e-12;   ///< less of what is seen says nothing
 constexpr double beside = 1e-6;          ///< of an edge, short of its ends
 
 }  // namespace
+
+double mixed(const std::array<double, 4>& weights, const std::array<double, 4>& values, bool categorical) {
+    if (categorical) {
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < 4; ++k) {
+            if (weights[k] > weights[best] || (weights[k] == weights[best] && values[k] < values[best])) {
+                best = k;
+            }
+        }
+        return std::isnan(weights[best]) ? weights[best] : values[best];
+    }
+    double mean = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        mean += weights[k] != 0 ? weights[k] * values[k] : 0;
+    }
+    return mean;
+}
 
 bool are_parted(const BarrierQuery& barriers, const Vec3& a, const Vec3& b) {
     const Vec3 short_of_end = beside * (b - a);

@@ -20,6 +20,10 @@ struct VertexWeights {
     std::array<double, 4> weights{};  ///< not negative, their sum is 1; all NaN: no vertex on the own side is near
 };
 
+/// What weights make of the vertices' values: their mean, or of classes the one of the largest weight, of equal ones
+/// the smaller. A value without weight does not matter. NaN for NaN weights.
+double mixed(const std::array<double, 4>& weights, const std::array<double, 4>& values, bool categorical);
+
 /// Does a barrier part the two ends of an edge? An end that lies on one, as a collapsed fault's nodes do, is beside it.
 bool are_parted(const BarrierQuery& barriers, const Vec3& a, const Vec3& b);
 
@@ -39,6 +43,11 @@ class OwnSide {
     /// none otherwise, the nearest one it sees of the cells around. Sight is blocked by what bars estimation, by exact
     /// predicates; not by horizons and other surfaces that bar nothing. Safe from many threads.
     [[nodiscard]] VertexWeights weights(std::uint32_t cell, const Vec3& p, std::array<double, 4> barycentric) const;
+
+    /// What the tessellation's field is made of at a place: weights() in a cell of concern, else the barycentric ones.
+    [[nodiscard]] VertexWeights at(std::uint32_t cell, const Vec3& p, const std::array<double, 4>& barycentric) const {
+        return concerns(cell) ? weights(cell, p, barycentric) : VertexWeights{mesh_.cells[cell], barycentric};
+    }
 
   private:
     [[nodiscard]] VertexWeights nearest_seen_around(std::uint32_t cell, const Vec3& p) const;

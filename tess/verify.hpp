@@ -23,6 +23,10 @@ struct Verdict {
 /// D1 to D3, V1, F1, R1 to R7 and total volume = hull box volume. `factory` makes the model's own estimator: R6 builds
 /// the model again from its samples and surfaces in reversed order, and R7 tries the moves of the clean-up as well
 /// where a variation criterion is in force. Without it they say what they did not do.
+///
+/// Takes as long as the build did: R6, which is a build, has four fifths of it (63,800 vertices, natural neighbour),
+/// R5's empty spheres 5 %, R7 and R3 2 to 3 % each, all others together 2 %, and what they share, tessellation, cell
+/// table and estimator, the rest.
 std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory = {}, const Progress& progress = {});
 
 }  // namespace terratet

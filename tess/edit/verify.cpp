@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "tess/barrier/query/protection_radii.hpp"
@@ -286,31 +285,26 @@ class Verifier {
 
     Verdict r3() {
         Offenders offenders;
-        std::vector<Vec3> places;
-        std::map<Vec3, Role> roles;
+        std::vector<Vec3> inserted;
+        std::vector<Vec3> given;
         for (const Vertex& vertex : model_.vertices) {
-            places.push_back(vertex.position);
-            roles[vertex.position] = vertex.role;
+            (vertex.role == Role::inserted ? inserted : given).push_back(vertex.position);
         }
-        const Sweep all(std::move(places));
-        std::size_t inserted = 0;
-        for (const Vertex& vertex : model_.vertices) {
-            if (vertex.role != Role::inserted) {
-                continue;
-            }
-            ++inserted;
-            const Vec3& p = vertex.position;
+        const Sweep near_inserted(inserted);
+        const Sweep near_given(std::move(given));
+        for (const Vec3& p : inserted) {
             const double l_min = resolution_.l_min(p);
-            const bool crowded = all.any_of(p, l_min, [&](const Vec3& q) {
-                const double needed = roles[q] == Role::inserted ? std::min(l_min, resolution_.l_min(q)) : l_min;
-                return q != p && squared_distance(p, q) < needed * needed;
-            });
+            const bool crowded = near_given.any_of(p, l_min, [](const Vec3&) { return true; }) ||
+                                 near_inserted.any_of(p, l_min, [&](const Vec3& q) {
+                                     const double needed = std::min(l_min, resolution_.l_min(q));
+                                     return q != p && squared_distance(p, q) < needed * needed;
+                                 });
             if (crowded) {
                 offenders.add("vertex at " + show(model_, p));
             }
         }
         return offenders.verdict("R3", "no inserted vertex is nearer than lmin to another",
-                                 std::to_string(inserted) + " inserted vertices");
+                                 std::to_string(inserted.size()) + " inserted vertices");
     }
 
     Verdict r4() {
@@ -368,9 +362,9 @@ class Verifier {
         return offenders.verdict("R6", statement, "built again from reversed rows: the same vertices");
     }
 
+    /// Refines the tessellation that R5 has looked at: what comes after has the mesh.
     Verdict r7() {
         Offenders offenders;
-        Tessellation again = tessellate(model_);
         VertexValues values = model_.vertex_values;
         const ValueSource none = [&](std::span<const ValueQuery> queries) {
             return ValueBatch{std::vector(model_.properties.size(), std::vector<double>(queries.size(), missing)),
@@ -379,8 +373,8 @@ class Verifier {
         // Whether a move would be accepted can depend on values at the new place, which only the estimator knows.
         RefineOptions options;
         options.clean_up = source_ || !model_.criteria.has_variation();
-        const RefineReport report = refine(again, values, model_.domain, model_.frame, proximity_, model_.criteria,
-                                           model_.properties, source_ ? source_ : none, options);
+        const RefineReport report = refine(tessellation_, values, model_.domain, model_.frame, proximity_,
+                                           model_.criteria, model_.properties, source_ ? source_ : none, options);
         if (report.inserted + report.moved + report.removed > 0) {
             offenders.add(std::to_string(report.inserted) + " vertices would be inserted, " +
                           std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");

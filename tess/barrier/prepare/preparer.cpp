@@ -294,16 +294,20 @@ void BarrierPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll,
     const EdgeTable edges(pass.complex.triangles);
     const SheetWall wall(pass.complex);
     const auto count = static_cast<std::uint32_t>(candidates_.size());
+    std::vector<char> bounds;
+    for (const Candidate& candidate : candidates_) {
+        bounds.push_back(is_bound(candidate.surface->kind) ? 1 : 0);
+    }
     if (options_.mode == SeedMode::paired) {
         pass.skirts = skirts(pass.complex, edges);
-        pass.seeded = paired_seeds({pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll, within},
-                                   pass.skirts);
+        pass.seeded = paired_seeds(
+            {pass.complex, wall, edges, sizes, frame_, count, scale_.width, {}, poll, within, bounds}, pass.skirts);
     } else {
         const SheetComplex whole_complex =
             with_margin_row(pass.complex, edges, wall, row_clearance, extent_, scale_.margin, frame_);
         const EdgeTable all_edges(whole_complex.triangles);
-        pass.seeded =
-            exact_seeds({whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll, within});
+        pass.seeded = exact_seeds(
+            {whole_complex, wall, all_edges, sizes, frame_, count, scale_.width, relaxed_, poll, within, bounds});
         pass.skirts.assign(count, TriMesh{whole_complex.points, {}});
         for (std::size_t t = pass.complex.triangles.size(); t < whole_complex.triangles.size(); ++t) {
             pass.skirts[whole_complex.sheet[t]].triangles.push_back(whole_complex.triangles[t]);

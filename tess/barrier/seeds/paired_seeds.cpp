@@ -139,6 +139,9 @@ class PairedSeeds {
             return;
         }
         const Vec3 tangent = junction_tangent(v);
+        const bool at_bound = !task_.bounds.empty() && std::ranges::any_of(all, [&](const PointFan& fan) {
+            return task_.bounds[fan.surface] != 0;
+        });
         if (all.size() == 2) {
             guard_corner(p, half, tangent, all);
         }
@@ -150,7 +153,9 @@ class PairedSeeds {
             Vec3 minus = half * (std::cos(turn) * along - std::sin(turn) * fan.normal);
             for (int tries = 0; tries < 4; ++tries) {
                 if (sees(fan, p + plus) && sees(fan, p + minus)) {
-                    collector_.add(fan.surface, p + plus, p + minus, {free_way(v), height_freedom});
+                    collector_.add(
+                        fan.surface, p + plus, p + minus,
+                        at_bound ? SeedCollector::Freedom{} : SeedCollector::Freedom{free_way(v), height_freedom});
                     break;
                 }
                 plus = 0.5 * plus;

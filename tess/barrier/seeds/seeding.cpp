@@ -29,7 +29,8 @@ bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& min
     places_.insert(places_.end(), {above, below});
     seeds_[surface].push_back({above, 1});
     seeds_[surface].push_back({below, -1});
-    freedom_[surface].push_back(freedom);
+    const bool stays = !task_.bounds.empty() && task_.bounds[surface] != 0;
+    freedom_[surface].push_back(stays ? Freedom{} : freedom);
     return true;
 }
 

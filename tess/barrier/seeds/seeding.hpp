@@ -30,7 +30,8 @@ struct SeedTask {
     std::span<const Vec3> relaxed{};  ///< about an edge length round these nothing need be certified (exact mode)
     Poll poll{};
     const Box3* mend_within =
-        nullptr;  ///< where pairs are moved if four seeds make a sliver: only worth it for the last
+        nullptr;                     ///< where pairs are moved if four seeds make a sliver: only worth it for the last
+    std::span<const char> bounds{};  ///< by surface: does the model end there? Such pairs stay where they are
 };
 
 struct SeededComplex {

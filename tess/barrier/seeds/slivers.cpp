@@ -12,9 +12,9 @@
 #include <numbers>
 #include <set>
 
+#include "tess/base/random_share.hpp"
 #include "tess/base/tri_mesh.hpp"
 #include "tess/mesh/quality.hpp"
-#include "tess/base/random_share.hpp"
 
 namespace terratet {
 namespace {

@@ -10,9 +10,9 @@
 #include <functional>
 #include <vector>
 
+#include "tess/base/poll.hpp"
 #include "tess/frame.hpp"
 #include "tess/geometry.hpp"
-#include "tess/base/poll.hpp"
 
 namespace terratet {
 

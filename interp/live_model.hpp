@@ -37,6 +37,9 @@ class LiveModel {
     [[nodiscard]] std::vector<PropertyEstimates> values(std::span<const ValueQuery> places) const {
         return snapshot()->estimator_with_errors().estimates(places);
     }
+    /// The value of each property at one place, likewise; NaN where there is none.
+    [[nodiscard]] std::vector<double> value_at(const Vec3& place) const;
+
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const {
         return snapshot()->neighbours_of(borehole);
     }

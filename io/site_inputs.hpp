@@ -22,24 +22,24 @@ enum class DipConvention { automatic, down_positive, down_negative, inclination 
 enum class AzimuthReference { grid, true_north, magnetic };
 
 struct SiteInputs {
-    std::vector<Source> boreholes;  ///< collar tables
-    std::vector<Source> surveys;
-    std::vector<Source> logs;     ///< interval (from, to) or point (depth) logs
-    std::vector<Source> samples;  ///< x, y, z, properties
-    std::vector<Source> faults;
-    std::vector<Source> surfaces;  ///< horizons
-    std::vector<Source> topography;
-    std::vector<Source> domain;  ///< a polygon in plan: one at most
+    std::vector<Source> boreholes{};  ///< collar tables
+    std::vector<Source> surveys{};
+    std::vector<Source> logs{};     ///< interval (from, to) or point (depth) logs
+    std::vector<Source> samples{};  ///< x, y, z, properties
+    std::vector<Source> faults{};
+    std::vector<Source> surfaces{};  ///< horizons
+    std::vector<Source> topography{};
+    std::vector<Source> domain{};  ///< a polygon in plan: one at most
 
-    std::string source_crs;               ///< -s_srs
-    std::string target_crs;               ///< -t_srs
-    std::vector<std::string> properties;  ///< NAME[:log10][:categorical][:unit=U]; empty: every numeric column
-    std::vector<std::pair<std::string, std::string>> columns;  ///< meaning → column name
+    std::string source_crs{};               ///< -s_srs
+    std::string target_crs{};               ///< -t_srs
+    std::vector<std::string> properties{};  ///< NAME[:log10][:categorical][:unit=U]; empty: every numeric column
+    std::vector<std::pair<std::string, std::string>> columns{};  ///< meaning → column name
     Desurvey desurvey = Desurvey::minimum_curvature;
     DipConvention dip = DipConvention::automatic;
     AzimuthReference azimuth = AzimuthReference::grid;
     double declination_deg = 0;  ///< magnetic only, east positive
-    std::string depth_unit;      ///< of depths and lengths along holes: "m", "ft"; empty: the collars' own CRS's unit
+    std::string depth_unit{};    ///< of depths and lengths along holes: "m", "ft"; empty: the collars' own CRS's unit
     double z_scale = 0;          ///< of the frame; 0: chosen for flat data (tess/site/site_box.hpp), with a note
     bool strict = false;         ///< the first dirty record is an InputError
 };

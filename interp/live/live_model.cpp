@@ -58,6 +58,15 @@ std::shared_ptr<const ModelSnapshot> LiveModel::snapshot() const {
     return impl_->newest;
 }
 
+std::vector<double> LiveModel::value_at(const Vec3& place) const {
+    const ValueQuery query{place};
+    std::vector<double> values;
+    for (const auto& of_property : snapshot()->estimator().values({&query, 1}).values) {
+        values.push_back(of_property.front());
+    }
+    return values;
+}
+
 void LiveModel::add_uncertainty() {
     const std::lock_guard lock(impl_->mutex);
     if (impl_->newest.use_count() > 1) {  // somebody holds it

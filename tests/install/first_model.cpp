@@ -13,5 +13,5 @@ int main(int, char** argv) {
     const LiveModel model(read_site({.boreholes = {{argv[1]}}, .logs = {{argv[2]}}, .source_crs = "EPSG:3067"}, said));
     export_model(model, argv[3]);
     const Vec3 place = model.model().frame.to_local({525520, 6792020, -25});
-    std::cout << model.values({{place}})[0].value[0] << '\n' << model.neighbours_of("B12").size() << '\n';
+    std::cout << model.value_at(place)[0] << '\n' << model.neighbours_of("B12").size() << '\n';
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: places that lie exactly on a barrier see nothing. Samples and queries there count to one of its sides, the
+/// Places that lie exactly on a barrier see nothing. Samples and queries there count to one of its sides, the
 /// + side where none is asked for (BarrierQuery::off_barriers).
 
 #include <span>

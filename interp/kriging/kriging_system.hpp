@@ -4,7 +4,7 @@
 /// \file
 /// One kriging system: covariances of a neighbourhood, its factor, the weights at a place (Cressie 1993, 3.2 and 3.4;
 /// Chilès and Delfiner 2012, 3.3 and 3.4). Everything in correlations, with nugget + sill = 1, since weights don't
-/// depend on the scale and pivots then have one. Private to this floor; the one translation unit with Eigen.
+/// depend on the scale and pivots then have one. The one translation unit with Eigen.
 
 #include <memory>
 #include <span>

@@ -4,7 +4,7 @@
 /// \file
 /// A static kd-tree for neighbourhood searches with limits. Off-the-shelf trees find the k nearest, but cannot pass
 /// over whole branches whose octant or borehole has given all it may: with a sample every metre along holes a hundred
-/// metres apart, that is the difference between fifty steps and five thousand. Private to this floor.
+/// metres apart, that is the difference between fifty steps and five thousand.
 ///
 /// Points lie in leaf order, axis by axis in each leaf, so that a leaf's distances are computed together; box and
 /// borehole lie in each node's cache line. About 40 bytes a point.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to resampling: which voxels of a block lie in a tetrahedron, row by row. Coordinates are voxel indices
+/// Which voxels of a block lie in a tetrahedron, row by row. Coordinates are voxel indices
 /// relative to the block's first voxel, so voxel (x,y,z) has its centre at (x,y,z).
 ///
 /// A facet's plane is computed from its three vertices in the order of their indices, so the two cells that share it

@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// GDAL's drivers that files are opened with. Others hang on hostile files (DXF), write beside them (GML), or call
-/// servers that the file names (VRT, WMS, WFS). Private to this floor.
+/// servers that the file names (VRT, WMS, WFS).
 
 #include <array>
 

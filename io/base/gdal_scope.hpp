@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// GDAL's global state within a scope: its messages, its options and what it may call, of this thread only. Private to
-/// this floor.
+/// GDAL's global state within a scope: its messages, its options and what it may call, of this thread
+/// only.
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// What a library throws while a file is read becomes an error that names the file. Private to this floor.
+/// What a library throws while a file is read becomes an error that names the file.
 
 #include <exception>
 #include <new>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Lines and words of text files, through GDAL's virtual file systems. Private to this floor.
+/// Lines and words of text files, through GDAL's virtual file systems.
 
 #include <charconv>
 #include <cstdint>

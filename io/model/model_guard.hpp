@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// A model file may come from anybody, and SQLite runs what a schema holds: views, triggers, generated columns. Before
-/// GDAL opens it, this looks it over with SQLite itself, which runs none of it. Private to this floor.
+/// GDAL opens it, this looks it over with SQLite itself, which runs none of it.
 
 #include <string>
 

@@ -3,8 +3,8 @@
 #pragma once
 /// \file
 /// One layer of the model file, row by row, through OGR. LayerWriter and LayerReader have the same functions to name
-/// columns, so that a layer's columns are written down once (model_schema.hpp) and serve both directions. Private to
-/// this floor.
+/// columns, so that a layer's columns are written down once (model_schema.hpp) and serve both
+/// directions.
 
 #include <ogrsf_frmts.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// What of a model is no row of a layer, as the key/value pairs of terratet_meta. Private to this floor.
+/// What of a model is no row of a layer, as the key/value pairs of terratet_meta.
 
 #include <map>
 #include <string>

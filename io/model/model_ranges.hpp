@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// What the numbers and texts of terratet_meta may be. Private to this floor.
+/// What the numbers and texts of terratet_meta may be.
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Layers and columns of the model file (docs/model-file.md), for writing and reading alike. Private to this floor.
+/// Layers and columns of the model file (docs/model-file.md), for writing and reading alike.
 
 #include <optional>
 #include <set>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the writers: what a vertex is, in words.
+/// What a vertex is, in words.
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the writers: names of properties in a file that has names of its own.
+/// Names of properties in a file that has names of its own.
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The vocabulary of GOCAD files: vertex ids, units, keywords that do not matter. Private to this floor.
+/// The vocabulary of GOCAD files: vertex ids, units, keywords that do not matter.
 
 #include <cstdint>
 #include <limits>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the readers of this floor: OGR's polygons as triangles.
+/// OGR's polygons as triangles.
 
 #include <ogrsf_frmts.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Collar and survey tables into holes with trajectories. Private to this floor.
+/// Collar and survey tables into holes with trajectories.
 
 #include <map>
 #include <string>

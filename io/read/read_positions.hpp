@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Positions of a table's rows, from columns or from its geometry, and the CRS they are in. Private to this floor.
+/// Positions of a table's rows, from columns or from its geometry, and the CRS they are in.
 
 #include <string>
 #include <vector>

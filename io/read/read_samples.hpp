@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Logs along holes and loose samples. Private to this floor.
+/// Logs along holes and loose samples.
 
 #include <string>
 #include <vector>

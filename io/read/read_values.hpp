@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Property columns: which of a table's columns are measured quantities, and their values. Private to this floor.
+/// Property columns: which of a table's columns are measured quantities, and their values.
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the writers: the tessellation cut exactly at the extent's six planes. Cells that reach beyond are cut
+/// The tessellation cut exactly at the extent's six planes. Cells that reach beyond are cut
 /// into tetrahedra, conforming: a quadrilateral shared by two pieces is split along the diagonal from its smallest
 /// point (by coordinates, so that the twin facets of a collapsed fault are cut alike), which also settles every prism
 /// (Dompierre et al. 1999, How to subdivide pyramids, prisms and hexahedra into tetrahedra). Cells are cut anywhere,

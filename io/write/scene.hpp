@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the glTF writer: what stands in the scene, before any byte of glTF. Coordinates are metres from the
+/// What stands in the scene, before any byte of glTF. Coordinates are metres from the
 /// scene's origin, y up: (east, up, −north).
 
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// Grids into an OpenVDB file, whole or with an error. OpenVDB's own File::write does not look at its stream again, so
-/// that a full disk cuts the file short without a word. Private to the VDB writer.
+/// that a full disk cuts the file short without a word.
 
 #include <openvdb/openvdb.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the VDB writer. OpenVDB puts a random UUID into each file's header, to tell two versions of a file apart;
+/// OpenVDB puts a random UUID into each file's header, to tell two versions of a file apart;
 /// equal inputs shall make equal bytes.
 
 #include <string>

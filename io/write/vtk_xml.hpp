@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Private to the VTU writer: a VTK XML file of one piece with its arrays appended raw, or in zlib blocks (VTK file
+/// A VTK XML file of one piece with its arrays appended raw, or in zlib blocks (VTK file
 /// formats, "XML file formats").
 
 #include <cstddef>

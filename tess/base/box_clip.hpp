@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: what of a polygon lies in a box.
+/// What of a polygon lies in a box.
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: which of many things that exclude each other in pairs may be there together.
+/// Which of many things that exclude each other in pairs may be there together.
 
 #include <cstdint>
 #include <vector>

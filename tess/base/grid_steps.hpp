@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: how fine the grid on the hull box' faces is.
+/// How fine the grid on the hull box' faces is.
 
 #include <algorithm>
 #include <array>

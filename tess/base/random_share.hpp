@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: numbers as if by chance, the same each time.
+/// Numbers as if by chance, the same each time.
 
 #include <cstdint>
 

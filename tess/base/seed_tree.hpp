@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the nearest of many points of any density, by number.
+/// The nearest of many points of any density, by number.
 
 #include <cstdint>
 #include <limits>

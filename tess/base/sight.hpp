@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a line of sight, a closed segment, that asks many boxes whether it misses them.
+/// A line of sight, a closed segment, that asks many boxes whether it misses them.
 
 #include <cmath>
 

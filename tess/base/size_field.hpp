@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the edge length wanted for fault triangles, place by place: one spacing everywhere but for places marked
+/// The edge length wanted for fault triangles, place by place: one spacing everywhere but for places marked
 /// finer, from which it grows back gradually.
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the triangle mesh that the steps of fault preparation hand on, and the measures they share.
+/// The triangle mesh that the steps of fault preparation hand on, and the measures they share.
 
 #include <span>
 #include <vector>

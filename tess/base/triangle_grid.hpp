@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: which triangles are near a point, answered in constant time. A hash grid whose cells list the triangles
+/// Which triangles are near a point, answered in constant time. A hash grid whose cells list the triangles
 /// that come within their reach of the cell; a point far from everything meets no cell.
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: does a segment meet a surface? A tree of boxes, and exact predicates at its leaves. Estimators ask this
+/// Does a segment meet a surface? A tree of boxes, and exact predicates at its leaves. Estimators ask this
 /// for every neighbour of every place; CGAL's AABB tree, whose boxes are tested in interval arithmetic too, takes five
 /// times as long.
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a fault's gap filled from the fault's own vertices and the seeds on both sides.
+/// A fault's gap filled from the fault's own vertices and the seeds on both sides.
 ///
 /// Where a fault lies on walls of the Voronoi diagram its vertices are vertices of the diagram: the seeds round vertex
 /// i lie on one sphere about it, and the cells between them make up a convex polyhedron P_i, triangulated arbitrarily.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the tessellation while it is being collapsed: its gaps filled from the faults' own vertices where these
+/// The tessellation while it is being collapsed: its gaps filled from the faults' own vertices where these
 /// have their node, then as the image of a simplicial map.
 
 #include <cstdint>

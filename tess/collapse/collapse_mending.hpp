@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the sharp cells of a collapsed mesh get better shapes (mend_cells.hpp).
+/// The sharp cells of a collapsed mesh get better shapes (mend_cells.hpp).
 
 #include "tess/collapsed_model.hpp"
 

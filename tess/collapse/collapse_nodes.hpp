@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the places of faults where a collapsed tessellation is to have nodes.
+/// The places of faults where a collapsed tessellation is to have nodes.
 
 #include <cstdint>
 #include <vector>

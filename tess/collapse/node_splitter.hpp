@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: which facets of a collapsed tessellation are the faults, and its nodes split along them.
+/// Which facets of a collapsed tessellation are the faults, and its nodes split along them.
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// What a build takes where nothing is given: resolution, extent, the outline of the domain. Private to this floor.
+/// What a build takes where nothing is given: resolution, extent, the outline of the domain.
 
 #include "tess/build_options.hpp"
 

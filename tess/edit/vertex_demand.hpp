@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// How many vertices the criteria ask for, known before any is made. Private to this floor.
+/// How many vertices the criteria ask for, known before any is made.
 
 #include "tess/build_options.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the linear field at places that are no vertices, for meshes made from others; always from a place's own
+/// The linear field at places that are no vertices, for meshes made from others; always from a place's own
 /// side of the faults.
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: better cells where planes or surfaces have cut a mesh. Hill-climbing on the worst cell (Freitag and
+/// Better cells where planes or surfaces have cut a mesh. Hill-climbing on the worst cell (Freitag and
 /// Ollivier-Gooch 1997, Tetrahedral mesh improvement using swapping and smoothing): points meet, edges and facets are
 /// flipped, points move, each only where the worst of the cells concerned gets better. Every step replaces cells by
 /// others of positive volume with the same outer facets, so the mesh fills what it filled: the box and the surfaces

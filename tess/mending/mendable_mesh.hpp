@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a mesh whose cells were cut, while it is being mended: its cells by their corners, what must stay, and how
+/// A mesh whose cells were cut, while it is being mended: its cells by their corners, what must stay, and how
 /// good a cell is.
 
 #include <array>

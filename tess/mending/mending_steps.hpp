@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the steps by which a cut mesh is mended (mend_cells.hpp), found for one bad cell and made.
+/// The steps by which a cut mesh is mended (mend_cells.hpp), found for one bad cell and made.
 
 #include <optional>
 

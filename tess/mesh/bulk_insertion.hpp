@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Many points into a triangulation, in CGAL's own order for that, asking on the way whether to go on. Private to this
-/// floor.
+/// Many points into a triangulation, in CGAL's own order for that, asking on the way whether to go
+/// on.
 
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/property_map.h>

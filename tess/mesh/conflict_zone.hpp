@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The conflict zone of a point: the cells whose circumsphere holds it, which an insertion would replace. Private to
-/// this floor.
+/// The conflict zone of a point: the cells whose circumsphere holds it, which an insertion would
+/// replace.
 ///
 /// Same result as CGAL's find_conflicts, about three times as fast: each finite cell caches its circumsphere in single
 /// precision, and the exact predicate, which must load twelve coordinates, decides only what the cached sphere cannot.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The faces of the hull box: their triangulation by the vertices on them, and the parts of its edges. Private to this
-/// floor.
+/// The faces of the hull box: their triangulation by the vertices on them, and the parts of its
+/// edges.
 ///
 /// A vertex near a face makes cells along it whose circumcentres lie beyond; projected onto the face, those make
 /// shorter edges still, and so on down to l_min, far from all data. So no vertex comes into the smallest ball about a

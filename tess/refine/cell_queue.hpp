@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The bad cells waiting for treatment. Private to this floor.
+/// The bad cells waiting for treatment.
 ///
 /// Worst first, by eighths of an octave of the violation; within one such class the latest first, so that work stays
 /// where the caches are warm. The order depends on the order of pushes alone, hence is deterministic when that is.

@@ -3,7 +3,7 @@
 #pragma once
 /// \file
 /// Rule 6 of refinement (DESIGN §4.3): what insertion cannot mend, slivers and cells below v_min, is mended by moving
-/// or removing inserted vertices. Samples, seeds and the box's vertices stay. Private to this floor.
+/// or removing inserted vertices. Samples, seeds and the box's vertices stay.
 ///
 /// A change is accepted only if the guards of insertion hold, it leaves no cell that insertion would have to treat and
 /// no more cells than before that insertion cannot treat, and the sorted list of severities of what it touches falls.

@@ -4,7 +4,7 @@
 /// \file
 /// Rules 1 to 3 of refinement (DESIGN §4.3) as pure functions of one cell: is it bad, and where would its new vertex
 /// go? The refiner acts on them and the cell table explains with them, so a reason code is the very reason the refiner
-/// had. Private to this floor.
+/// had.
 
 #include <array>
 #include <span>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Cells of a live tessellation as the insertion rule sees them, and deterministic points around them. Private to this
-/// floor.
+/// Cells of a live tessellation as the insertion rule sees them, and deterministic points around
+/// them.
 
 #include <algorithm>
 

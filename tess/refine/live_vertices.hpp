@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// The vertices of a tessellation under refinement, and their values. Private to this floor.
+/// The vertices of a tessellation under refinement, and their values.
 ///
 /// Where criteria ask for values they are estimated as vertices come and move; otherwise all at the end, in batches.
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: cutting a mesh where a function given at its points changes sign; planes are the simplest case.
+/// Cutting a mesh where a function given at its points changes sign; planes are the simplest case.
 
 #include <span>
 

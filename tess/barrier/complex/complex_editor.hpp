@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a fault complex under edition: edges split, collapsed and flipped, points moved and merged, while rims and
+/// A fault complex under edition: edges split, collapsed and flipped, points moved and merged, while rims and
 /// junctions stay what they are. Whatever is done, sheets that share a junction go on sharing its points.
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: repairs of a fault complex under edition. Sheets that all but touch are made to touch, or to part.
+/// Repairs of a fault complex under edition. Sheets that all but touch are made to touch, or to part.
 
 #include <numbers>
 #include <span>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: sheets that cross, abut or nearly abut, cut along their intersections into one complex.
+/// Sheets that cross, abut or nearly abut, cut along their intersections into one complex.
 
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: what is added beyond the rims of a fault, so that the seeds cover more than the surface itself. Without it
+/// What is added beyond the rims of a fault, so that the seeds cover more than the surface itself. Without it
 /// edges of the tessellation slip round the rims (research: 15 to 125 of them in a small model, at any radius).
 
 #include "tess/base/tri_mesh.hpp"

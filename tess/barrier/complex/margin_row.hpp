@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a row of triangles beyond the free rims of a fault complex, joined to it.
+/// A row of triangles beyond the free rims of a fault complex, joined to it.
 
 #include "tess/barrier/complex/sheet_complex.hpp"
 #include "tess/barrier/complex/sheet_wall.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: how faults compare, with a spacing, with what was read, and with each other.
+/// How faults compare, with a spacing, with what was read, and with each other.
 
 #include <span>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: a fault complex remeshed to the seeds' spacing, all sheets at once, so that junctions stay conforming.
+/// A fault complex remeshed to the seeds' spacing, all sheets at once, so that junctions stay conforming.
 
 #include <memory>
 #include <span>

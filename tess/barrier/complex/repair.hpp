@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: from a surface as read, a soup of triangles with any defect, to clean oriented sheets.
+/// From a surface as read, a soup of triangles with any defect, to clean oriented sheets.
 
 #include <cstddef>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the free rims of barriers, and how near a line of sight passes by them.
+/// The free rims of barriers, and how near a line of sight passes by them.
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: rounding what mirrored pairs of seeds could not follow.
+/// Rounding what mirrored pairs of seeds could not follow.
 
 #include "tess/barrier/complex/sheet_complex.hpp"
 #include "tess/base/size_field.hpp"

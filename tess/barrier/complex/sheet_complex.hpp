@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: all sheets of all faults as one complex of triangles. Sheets that meet share points and edges, so that a
+/// All sheets of all faults as one complex of triangles. Sheets that meet share points and edges, so that a
 /// junction is conforming by construction; an edge may have any number of triangles.
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: all faults' sheets as one complex of triangles as large as wanted, kept up while smaller ones are asked
+/// All faults' sheets as one complex of triangles as large as wanted, kept up while smaller ones are asked
 /// for in places and surfaces are refused.
 
 #include <memory>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the triangles of a fault complex as walls: what can be seen from where. Exact predicates.
+/// The triangles of a fault complex as walls: what can be seen from where. Exact predicates.
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: where faults' triangles are too large for what is near them.
+/// Where faults' triangles are too large for what is near them.
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the steps from surfaces to faults, in their order, and who is refused on the way.
+/// The steps from surfaces to faults, in their order, and who is refused on the way.
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the protection zone of prepared faults, asked very often: the same places as
+/// The protection zone of prepared faults, asked very often: the same places as
 /// BarrierQuery::protecting_fault, but what one question costs hardly grows where triangles are small and many.
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: where shortest ways round barriers turn: at their free rims. Places just outside the rims, and which of
+/// Where shortest ways round barriers turn: at their free rims. Places just outside the rims, and which of
 /// them see each other; a way by way of them is a little longer than the shortest one, never shorter.
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: base points that cover a fault and its margin.
+/// Base points that cover a fault and its margin.
 
 #include <functional>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: places to look for leaks at, and which of them a ball holds.
+/// Places to look for leaks at, and which of them a ball holds.
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: finds where the seeds of prepared faults would let an edge through.
+/// Finds where the seeds of prepared faults would let an edge through.
 ///
 /// An edge ab of a Delaunay tessellation has a ball with a and b on it and no vertex inside. Whatever vertices there
 /// are besides the seeds, an empty ball with seed a on it lies within the circumscribed balls of a's cells in the

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: closes the places where the seeds of prepared faults would let an edge through (F1).
+/// Closes the places where the seeds of prepared faults would let an edge through (F1).
 ///
 /// A leak (leaks.hpp) whose ball is no larger than the protection radius is closed by keeping other vertices out
 /// of the ball: a *flake*, a tiny triangle in its centre, joins the margin. A larger one is a hole in the cover: a

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the seeds of a remeshed fault complex, in either mode, and what can be certified of them (DESIGN §4.2).
+/// The seeds of a remeshed fault complex, in either mode, and what can be certified of them (DESIGN §4.2).
 
 #include <functional>
 #include <set>

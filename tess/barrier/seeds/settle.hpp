@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: the seeds of exact mode, made to stand in general position.
+/// The seeds of exact mode, made to stand in general position.
 ///
 /// All seeds round a corner of the sheet lie on one sphere, so that rounding decides how they are tessellated. On each
 /// side of a sheet that hardly bends they all but lie in a plane as well, and a cell between four of one side has no

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Internal: pairs of seeds moved a little, so that no four seeds make a sliver. Where four of them all but lie on a
+/// Pairs of seeds moved a little, so that no four seeds make a sliver. Where four of them all but lie on a
 /// circle and in a plane, a cell without height hangs between the two ways to triangulate them, and nothing that
 /// refinement may insert comes near enough to break it up.
 

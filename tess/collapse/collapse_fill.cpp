@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffU;
 
-/// Corners of facet k as seen from outside the cell.
-
 using Edge = std::array<std::uint32_t, 2>;
 
 /// An edge of the fault, from x to y, that is joined with one between seeds, a < b: the cell (x, a, b, y).

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "tess/collapse/facet_neighbours.hpp"
 #include "tess/mending/blend.hpp"
 #include "tess/mending/mend_cells.hpp"
 #include "tess/mesh/quality.hpp"
@@ -37,33 +38,6 @@ MendableMesh cut_mesh(const CollapsedModel& collapsed) {
         const bool is_gap = table.barrier[c] >= 0;
         const std::int32_t part = is_beyond ? beyond : is_gap ? beyond - 1 - table.barrier[c] : table.region[c];
         result.cells.push_back({collapsed.mesh.cells[c], c, part, !is_beyond && !is_gap, false});
-    }
-    return result;
-}
-
-std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<Corners>& cells) {
-    struct Side {
-        Triangle key;
-        std::uint32_t cell;
-        std::uint32_t facet;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * cells.size());
-    for (std::uint32_t c = 0; c < cells.size(); ++c) {
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const auto& o = facet_corners[k];
-            Triangle key{cells[c][o[0]], cells[c][o[1]], cells[c][o[2]]};
-            std::ranges::sort(key);
-            sides.push_back({key, c, k});
-        }
-    }
-    std::ranges::sort(sides, {}, [](const Side& side) { return std::tie(side.key, side.cell); });
-    std::vector<std::array<std::int32_t, 4>> result(cells.size(), {-1, -1, -1, -1});
-    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-        if (sides[i].key == sides[i + 1].key) {
-            result[sides[i].cell][sides[i].facet] = static_cast<std::int32_t>(sides[i + 1].cell);
-            result[sides[i + 1].cell][sides[i + 1].facet] = static_cast<std::int32_t>(sides[i].cell);
-        }
     }
     return result;
 }

@@ -10,6 +10,7 @@
 #include "tess/barrier_query.hpp"
 #include "tess/base/box_clip.hpp"
 #include "tess/base/tetrahedron.hpp"
+#include "tess/collapse/facet_neighbours.hpp"
 
 namespace terratet {
 namespace {
@@ -19,39 +20,6 @@ using Cell = CollapseImage::Cell;
 
 constexpr double on_surface = 1e-3;  ///< a place may be this far from a surface it is on, over the spacing
 constexpr double on_sheet = 0.1;     ///< a facet's centre may be this far from the sheet, over its longest edge
-
-/// Corners of facet k as seen from outside the cell.
-
-/// Neighbours across facets by sorting; −1 where there is none.
-std::vector<std::array<std::int32_t, 4>> neighbours_of(const std::vector<std::array<std::uint32_t, 4>>& cells) {
-    struct Side {
-        Triangle key;
-        std::uint32_t cell;
-        std::uint32_t facet;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * cells.size());
-    for (std::uint32_t c = 0; c < cells.size(); ++c) {
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            Triangle key{cells[c][(k + 1) % 4], cells[c][(k + 2) % 4], cells[c][(k + 3) % 4]};
-            std::ranges::sort(key);
-            sides.push_back({key, c, k});
-        }
-    }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
-        return std::tie(a.key, a.cell, a.facet) < std::tie(b.key, b.cell, b.facet);
-    });
-    std::vector<std::array<std::int32_t, 4>> neighbours(cells.size(), {-1, -1, -1, -1});
-    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-        const Side& a = sides[i];
-        const Side& b = sides[i + 1];
-        if (a.key == b.key) {
-            neighbours[a.cell][a.facet] = static_cast<std::int32_t>(b.cell);
-            neighbours[b.cell][b.facet] = static_cast<std::int32_t>(a.cell);
-        }
-    }
-    return neighbours;
-}
 
 double area(const std::vector<Vec3>& polygon) {
     Vec3 sum;

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t listed = 20;  ///< places of offenders
 
-/// Corners of facet k as seen from outside the cell.
-
 /// One cell's side of a facet.
 template <class Key>
 struct Side {

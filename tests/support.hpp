@@ -11,21 +11,21 @@
 #include <random>
 #include <string>
 
+#include "source_dir.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet::testing {
 
 /// A file or folder of the project's own data.
 inline std::filesystem::path project_data(const std::string& relative) {
-    return std::filesystem::path(TERRATET_SOURCE_DIR) / "data" / relative;
+    return source_dir() / "data" / relative;
 }
 
 /// A file or folder of the public data sets, which are not part of the project: the folder TERRATET_PUBLIC_DATA names,
 /// or shared/data beside the checkout. Nothing when absent: the test then says so (WARN) and returns.
 inline std::optional<std::filesystem::path> public_data(const std::string& relative) {
     const char* named = std::getenv("TERRATET_PUBLIC_DATA");
-    const auto root =
-        named ? std::filesystem::path(named) : std::filesystem::path(TERRATET_SOURCE_DIR) / ".." / "shared" / "data";
+    const auto root = named ? std::filesystem::path(named) : source_dir() / ".." / "shared" / "data";
     std::error_code error;
     const auto path = root / relative;
     return std::filesystem::exists(path, error) ? std::optional(path) : std::nullopt;

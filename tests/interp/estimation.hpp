@@ -56,7 +56,7 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
 
 /// Rows of a file that gstat/reference.R made, cells as text, without the header.
 inline std::vector<std::vector<std::string>> gstat_rows(const std::string& name) {
-    std::ifstream file(std::string(TERRATET_SOURCE_DIR) + "/tests/interp/gstat/" + name);
+    std::ifstream file(source_dir() / "tests/interp/gstat" / name);
     REQUIRE(file);
     std::vector<std::vector<std::string>> rows;
     std::string line;

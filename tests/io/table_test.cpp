@@ -286,7 +286,7 @@ TEST_CASE("headers and numbers of workbooks read well") {
 }
 
 TEST_CASE("the manual lists every alias of every meaning") {
-    std::ifstream file(TERRATET_SOURCE_DIR "/docs/inputs.md");
+    std::ifstream file(testing::source_dir() / "docs/inputs.md");
     const std::string manual{std::istreambuf_iterator<char>(file), {}};
     for (int i = 0; i <= static_cast<int>(Meaning::name); ++i) {
         const auto meaning = static_cast<Meaning>(i);

@@ -9,7 +9,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "source_dir.hpp"
+
 using namespace terratet::tools;
+using terratet::testing::source_dir;
 
 TEST_CASE("A field in a message becomes the option that sets it") {
     CHECK(with_options("`l_min` must be a positive length") == "--lmin must be a positive length");
@@ -39,8 +42,7 @@ TEST_CASE("Every field that the library's messages name has its option") {
     std::set<std::string> without;
     std::size_t found = 0;
     for (const char* floor : {"tess", "interp", "io"}) {
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(std::filesystem::path(TERRATET_SOURCE_DIR) / floor)) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / floor)) {
             std::ifstream file(entry.path());
             for (std::string line; entry.path().extension() == ".cpp" && std::getline(file, line);) {
                 for (std::sregex_iterator text(line.begin(), line.end(), literal); text != std::sregex_iterator();

@@ -19,17 +19,17 @@ bool begins_formula(std::string_view text) {
 }
 
 /// Is it a formula, or already marked as none?
-bool needs_mark(const std::string& text) {
+bool needs_mark(std::string_view text) {
     const std::size_t first = std::min(text.find_first_not_of(mark), text.size());
-    const std::string_view rest = std::string_view(text).substr(first);
+    const std::string_view rest = text.substr(first);
     return rest.size() > 1 && begins_formula(rest) && !(first == 0 && parse_number(text));
 }
 
 }  // namespace
 
-void append_csv_text(std::string& row, const std::string& text) {
+void append_csv_text(std::string& row, std::string_view text) {
     const bool marked = needs_mark(text);
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
         row += marked ? std::string(1, mark) : "";
         row += text;
         return;
@@ -45,7 +45,7 @@ void append_csv_text(std::string& row, const std::string& text) {
     row += '"';
 }
 
-std::string without_formula_mark(std::string text) {
+std::string_view without_formula_mark(std::string_view text) {
     const bool marked = text.starts_with(mark) && needs_mark(text);
     return marked ? text.substr(1) : text;
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "tess/property.hpp"
 
@@ -15,10 +16,10 @@ namespace terratet {
 /// Text that a spreadsheet would take for a formula (it begins with =, +, -, @, a tab or a line end, and is no number)
 /// gets an apostrophe before it, and so does text that begins with apostrophes and then such a sign: the reader takes
 /// one away, so that every text survives.
-void append_csv_text(std::string& row, const std::string& text);
+void append_csv_text(std::string& row, std::string_view text);
 
 /// The text as it was before append_csv_text.
-std::string without_formula_mark(std::string text);
+std::string_view without_formula_mark(std::string_view text);
 
 template <class Number>
 void append_csv_number(std::string& row, Number value) {

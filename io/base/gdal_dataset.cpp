@@ -111,20 +111,46 @@ OGRLayer* find_layer(GDALDataset& dataset, const Source& source, const GdalScope
 
 }  // namespace
 
+namespace {
+
+/// The beginning of a file that is there and can be what its name says; empty for a connection.
+std::string checked_head(const Source& source) {
+    const std::string path = plain_path(source.path);
+    if (is_connection(source.path)) {
+        return "";
+    }
+    if (!is_stream(path)) {
+        require_file(source, path);
+    }
+    std::string head = first_bytes(path);
+    if (is_csv_name(path) && classify(head) != Content::text) {
+        throw InputError(source.describe() + (classify(head) == Content::utf16
+                                                  ? ": is UTF-16 text; save it as UTF-8"
+                                                  : ": holds binary data, not a table in text"));
+    }
+    return head;
+}
+
+}  // namespace
+
+bool is_text_table(const Source& source) {
+    const GdalScope scope(source.path);
+    const std::string head = checked_head(source);
+    const std::string path = plain_path(source.path);
+    if (path != source.path || is_csv_name(path)) {
+        return !head.empty();
+    }
+    return looks_like_text_table(head) &&
+           (is_stream(path) ||
+            GDALIdentifyDriverEx(path.c_str(), GDAL_OF_VECTOR, vector_drivers.data(), nullptr) == nullptr);
+}
+
 Dataset open_vector(const Source& source) {
     const GdalScope scope(source.path);
     const SafeSqlite settings;
     const std::string path = plain_path(source.path);
     const bool file = !is_connection(source.path);
-    if (file && !is_stream(path)) {
-        require_file(source, path);
-    }
-    const std::string head = file ? first_bytes(path) : "";
-    if (file && is_csv_name(path) && classify(head) != Content::text) {
-        throw InputError(source.describe() + (classify(head) == Content::utf16
-                                                  ? ": is UTF-16 text; save it as UTF-8"
-                                                  : ": holds binary data, not a table in text"));
-    }
+    const std::string head = checked_head(source);
     Dataset dataset = try_open(source.path, source);
     if (!dataset && file && path == source.path && looks_like_text_table(head)) {
         dataset = try_open("CSV:" + path, source);

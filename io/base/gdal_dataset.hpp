@@ -25,6 +25,10 @@ using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 /// empty, binary, UTF-16, of no known format.
 Dataset open_vector(const Source& source);
 
+/// Is this a table in text (CSV and its kin), and of no other known format? Throws InputError as open_vector does for
+/// what is not there, empty, or called CSV and is none.
+bool is_text_table(const Source& source);
+
 /// The layer that `source` names: by sql, by name, or the first; the filter set. Throws InputError (lists the layers
 /// there are). `result_set` releases the result of a statement; keep it as long as the layer.
 struct ResultSetReleaser {

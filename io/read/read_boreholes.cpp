@@ -20,7 +20,7 @@ std::string number(double value) {
     return fmt::format("{}", value);
 }
 
-const std::string& cell(const Table& table, int column, std::size_t row) {
+std::string_view cell(const Table& table, int column, std::size_t row) {
     return table.cells[static_cast<std::size_t>(column)][row];
 }
 
@@ -128,7 +128,7 @@ struct DirectionColumns {
 /// The direction in a row; nothing, with the reason in `problem`, when it has none. A vertical hole needs no azimuth.
 std::optional<Direction> direction(const Table& table, const DirectionColumns& columns, std::size_t row,
                                    std::string& problem) {
-    const std::string& dip_text = cell(table, columns.dip, row);
+    const std::string_view dip_text = cell(table, columns.dip, row);
     const std::optional<double> dip = parse_number(dip_text);
     const double inclination = inclination_deg(dip.value_or(missing), columns.convention);
     if (std::isnan(inclination)) {
@@ -136,7 +136,7 @@ std::optional<Direction> direction(const Table& table, const DirectionColumns& c
                               dip ? describe(columns.convention) : "number");
         return std::nullopt;
     }
-    const std::string azimuth_text = columns.azimuth < 0 ? "" : cell(table, columns.azimuth, row);
+    const std::string_view azimuth_text = columns.azimuth < 0 ? std::string_view{} : cell(table, columns.azimuth, row);
     const std::optional<double> azimuth = parse_number(azimuth_text);
     const bool vertical = std::abs(std::sin(inclination * std::acos(-1.0) / 180)) < 1e-9;
     const bool no_angle = azimuth ? std::abs(*azimuth) > 360 : !azimuth_text.empty() || !vertical;
@@ -195,7 +195,7 @@ void read_collars(const PlacedTable& placed, const Crs& own_crs, const Crs& targ
     const double factor = depth_factor(own_crs, target, inputs.depth_unit);
     note_depth_unit(table, own_crs, target, inputs, diagnostics);
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        const std::string& id = cell(table, id_column, row);
+        const std::string id(cell(table, id_column, row));
         const auto reject = [&](const std::string& reason) {
             diagnostics.reject(table.file, table.lines[row], reason);
         };
@@ -243,7 +243,7 @@ void read_survey(const Table& table, const Collars& collars, const Crs& target, 
     const DirectionColumns columns = direction_columns(table, inputs, diagnostics);
     bool any = false;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        const std::string& id = cell(table, id_column, row);
+        const std::string id(cell(table, id_column, row));
         const auto collar = collars.find(id);
         std::string problem;
         if (collar == collars.end()) {
@@ -284,7 +284,7 @@ std::vector<SurveyStation> stations_of(const std::map<double, SurveyStation>& su
 
 double parse_depth(const Table& table, int column, std::size_t row, double unit_factor, double metres_per_unit,
                    std::string& problem) {
-    const std::string& text = cell(table, column, row);
+    const std::string_view text = cell(table, column, row);
     const std::optional<double> value = parse_number(text);
     const std::string& name = header(table, column);
     if (!value) {

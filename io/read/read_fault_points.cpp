@@ -75,8 +75,8 @@ PointsByName group(const Table& table, const Coordinates& where, int name_column
             rejections.add(table.lines[row], [] { return std::string("x, y and z must be numbers within 1e9"); });
             continue;
         }
-        const std::string& name =
-            name_column < 0 ? default_name : table.cells[static_cast<std::size_t>(name_column)][row];
+        const std::string name(name_column < 0 ? default_name
+                                               : table.cells[static_cast<std::size_t>(name_column)][row]);
         if (name.empty()) {
             rejections.add(table.lines[row], [&] {
                 return "no fault name in column " + table.columns[static_cast<std::size_t>(name_column)];

@@ -23,7 +23,7 @@ struct PositionColumns {
     [[nodiscard]] bool plane() const { return x >= 0 && y >= 0; }
 };
 
-const std::string& cell(const Table& table, int column, std::size_t row) {
+std::string_view cell(const Table& table, int column, std::size_t row) {
     return table.cells[static_cast<std::size_t>(column)][row];
 }
 
@@ -97,7 +97,7 @@ double coordinate(const Table& table, int column, std::size_t row, double in_geo
         }
         return in_geometry;
     }
-    const std::string& text = cell(table, column, row);
+    const std::string_view text = cell(table, column, row);
     const std::optional<double> value = parse_number(text);
     if (!value) {
         problem = text.empty() ? fmt::format("column {} is empty", header(table, column))

@@ -67,7 +67,7 @@ bool has_value(const std::vector<ValueColumn>& columns, std::size_t row) {
 LogRow locate(const Table& table, const LogColumns& columns, std::size_t row, Holes& holes, const Crs& target,
               std::string& problem) {
     LogRow result{row, nullptr, 0, 0};
-    const std::string& id = table.cells[static_cast<std::size_t>(columns.id)][row];
+    const std::string id(table.cells[static_cast<std::size_t>(columns.id)][row]);
     const auto hole = holes.find(id);
     if (hole == holes.end()) {
         problem = id.empty() ? "no id" : fmt::format("hole {} has no collar", id);

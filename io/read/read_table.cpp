@@ -20,6 +20,8 @@
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/library_failure.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/tables/csv_file.hpp"
+#include "io/read/tables/number_style.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -84,20 +86,22 @@ bool has_no_header(const Table& table) {
     return std::ranges::all_of(table.columns, is_unnamed);
 }
 
-Table read_layer(OGRLayer& layer, const Source& source) {
+Table read_layer(OGRLayer& layer, const Source& source, bool csv) {
     Table table;
     table.file = source.describe();
     table.crs = crs_of(layer);
     OGRFeatureDefn& definition = *layer.GetLayerDefn();
     for (int field = 0; field < definition.GetFieldCount(); ++field) {
-        table.columns.push_back(without_blanks(to_utf8(definition.GetFieldDefn(field)->GetNameRef())));
+        const std::string name = without_blanks(to_utf8(definition.GetFieldDefn(field)->GetNameRef()));
+        table.columns.emplace_back(csv ? without_formula_mark(name) : name);
     }
     table.cells.resize(table.columns.size());
     layer.ResetReading();
     bool any_point = false;
     while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
         for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            table.cells[column].push_back(cell_text(*feature, static_cast<int>(column)));
+            const std::string text = cell_text(*feature, static_cast<int>(column));
+            table.cells[column].push_back(csv ? without_formula_mark(text) : text);
         }
         table.points.push_back(point_of(feature->GetGeometryRef()));
         any_point = any_point || table.points.back();
@@ -172,64 +176,13 @@ void number_lines(Table& table, const Source& source) {
 
 void drop_empty_columns(Table& table) {
     for (std::size_t column = table.columns.size(); column-- > 0;) {
-        const bool empty = std::ranges::all_of(table.cells[column], &std::string::empty);
-        if (empty && is_unnamed(table.columns[column])) {
+        const bool empty = is_unnamed(table.columns[column]) &&
+                           std::ranges::all_of(table.cells[column], [](std::string_view cell) { return cell.empty(); });
+        if (empty) {
             table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
             table.cells.erase(table.cells.begin() + static_cast<std::ptrdiff_t>(column));
         }
     }
-}
-
-/// "1,5" can only be a decimal comma; "1,500" may be fifteen hundred.
-enum class Comma { none, ambiguous, decimal, other };
-
-Comma comma_in(const std::string& cell) {
-    const std::size_t comma = cell.find(',');
-    if (comma == std::string::npos) {
-        return cell.find('.') != std::string::npos && parse_number(cell) ? Comma::other : Comma::none;
-    }
-    std::string with_point = cell;
-    with_point[comma] = '.';
-    if (comma + 1 == cell.size() || !parse_number(with_point)) {
-        return Comma::other;
-    }
-    const std::string_view whole = std::string_view(cell).substr(0, comma);
-    const std::string_view rest = std::string_view(cell).substr(comma + 1);
-    const bool thousands = all_digits(rest) && rest.size() == 3 && whole.size() <= 4 && !whole.empty() &&
-                           all_digits(whole.substr(whole.front() == '-' ? 1 : 0)) && whole != "0" && whole != "-0";
-    return thousands ? Comma::ambiguous : Comma::decimal;
-}
-
-/// A table with decimal commas has them throughout: one column that proves it settles the ambiguous ones too.
-void accept_decimal_commas(Table& table) {
-    std::vector<std::size_t> columns;
-    bool proven = false;
-    const int id = find_optional_column(table, Meaning::id, {});
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
-        if (static_cast<int>(column) == id) {
-            continue;  // ids stay as they are
-        }
-        std::set<Comma> found;
-        for (const std::string& cell : table.cells[column]) {
-            found.insert(comma_in(cell));
-        }
-        const bool commas = found.contains(Comma::decimal) || found.contains(Comma::ambiguous);
-        if (commas && !found.contains(Comma::other)) {
-            columns.push_back(column);
-            proven = proven || found.contains(Comma::decimal);
-        }
-    }
-    if (!proven) {
-        return;
-    }
-    std::string names;
-    for (const std::size_t column : columns) {
-        names += (names.empty() ? "" : ", ") + table.columns[column];
-        for (std::string& cell : table.cells[column]) {
-            std::ranges::replace(cell, ',', '.');
-        }
-    }
-    table.notes.push_back(table.file + ": decimal commas read as points in " + names);
 }
 
 bool has_driver(GDALDataset& dataset, std::initializer_list<const char*> names) {
@@ -246,12 +199,10 @@ void number_records(Table& table, GDALDataset& dataset, const Source& source) {
     }
 }
 
-/// Is the first row of a table without header one after all? GDAL takes a row with a number in it for data.
-bool first_row_is_header(const Table& table) {
+/// Are these names of columns after all? A row with a number in it passes for data.
+bool names_columns(const std::vector<std::string>& names) {
     Table titled;
-    for (const auto& column : table.cells) {
-        titled.columns.push_back(column.empty() ? "" : column.front());
-    }
+    titled.columns = names;
     std::set<int> found;
     for (const Meaning meaning : {Meaning::id, Meaning::x, Meaning::y, Meaning::z, Meaning::from, Meaning::to,
                                   Meaning::depth, Meaning::azimuth, Meaning::dip}) {
@@ -261,16 +212,26 @@ bool first_row_is_header(const Table& table) {
     return found.size() >= 2;
 }
 
-/// Texts as they were before a program, ours or another, kept them from being formulas.
-void take_formula_marks(Table& table) {
-    for (std::string& column : table.columns) {
-        column = without_formula_mark(std::move(column));
+bool first_row_is_header(const Table& table) {
+    std::vector<std::string> names;
+    for (const TextColumn& column : table.cells) {
+        names.emplace_back(column.empty() ? "" : column.front());
     }
-    for (auto& column : table.cells) {
-        for (std::string& cell : column) {
-            cell = cell.starts_with('\'') ? without_formula_mark(std::move(cell)) : std::move(cell);
-        }
+    return names_columns(names);
+}
+
+/// One layer of several is read: which, and which others there are.
+void note_other_layers(GDALDataset& dataset, OGRLayer& layer, const Source& source, Table& table) {
+    if (!source.layer.empty() || !source.sql.empty() || dataset.GetLayerCount() < 2) {
+        return;
     }
+    std::string others;
+    for (OGRLayer* const other : dataset.GetLayers()) {
+        others += other == &layer ? "" : (others.empty() ? "" : ", ") + to_utf8(other->GetName());
+    }
+    table.notes.push_back(
+        fmt::format("{}: of {} layers the first one, {}, is read; the others are {} (layer= names one)", table.file,
+                    dataset.GetLayerCount(), to_utf8(layer.GetName()), others));
 }
 
 bool names_option(const Source& source, const std::string& key) {
@@ -285,23 +246,18 @@ Table read_once(const Source& source, bool& csv) {
     ResultSet result_set;
     OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
     scope.clear();
-    Table table = read_layer(layer, source);
+    Table table = read_layer(layer, source, csv);
     if (scope.failed()) {  // what came before would pass for the whole
         throw InputError(
             fmt::format("{}: reading failed after {} rows ({})", table.file, table.rows(), scope.failure()));
     }
-    if (csv) {
-        take_formula_marks(table);
-    }
+    note_other_layers(*dataset, layer, source, table);
     number_records(table, *dataset, source);
-    if (table.rows() == 0) {
-        throw InputError(table.file + ": has no row" +
-                         (source.where.empty() ? " below its header" : " that meets where=" + source.where));
-    }
     return table;
 }
 
-Table read_titled(const Source& source) {
+/// By GDAL: what is no text, and text with a filter, a statement or geometries.
+Table read_by_gdal(const Source& source) {
     bool csv = false;
     Table table = read_once(source, csv);
     const bool untitled = csv && has_no_header(table) && !names_option(source, "HEADERS") && !is_stream(source.path);
@@ -313,17 +269,77 @@ Table read_titled(const Source& source) {
     if (csv && source.sql.empty()) {
         number_lines(table, source);
     }
-    drop_empty_columns(table);
-    if (csv) {
-        accept_decimal_commas(table);
+    return table;
+}
+
+/// The value of an open option in upper case; empty: not given.
+std::string option(const Source& source, const std::string& key) {
+    for (const std::string& text : source.open_options) {
+        if (EQUALN(text.c_str(), (key + "=").c_str(), key.size() + 1)) {
+            return CPLString(text.substr(key.size() + 1)).toupper();
+        }
     }
+    return {};
+}
+
+bool is_file(const std::string& path) {
+    VSIStatBufL status;
+    return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
+
+/// What the options say of a text; nothing when they are GDAL's to understand.
+std::optional<CsvOptions> csv_options(const Source& source) {
+    CsvOptions options;
+    options.names_columns = names_columns;
+    const std::string extension = CPLString(CPLGetExtension(source.path.c_str())).tolower();
+    options.separator = extension == "tsv" ? '\t' : extension == "psv" ? '|' : 0;
+    for (const auto& [name, sign] :
+         {std::pair{"COMMA", ','}, {"SEMICOLON", ';'}, {"TAB", '\t'}, {"SPACE", ' '}, {"PIPE", '|'}}) {
+        options.separator = option(source, "SEPARATOR") == name ? sign : options.separator;
+    }
+    const std::string header = option(source, "HEADERS");
+    if (header == "YES" || header == "NO") {
+        options.header = header == "YES";
+    }
+    const auto known =
+        static_cast<std::size_t>(!option(source, "SEPARATOR").empty()) + static_cast<std::size_t>(!header.empty());
+    const bool types =
+        extension == "csv" && !is_stream(source.path) && is_file(CPLResetExtension(source.path.c_str(), "csvt"));
+    return known == source.open_options.size() && source.where.empty() && source.sql.empty() && !types
+               ? std::optional(options)
+               : std::nullopt;
+}
+
+bool holds_geometry(const Table& table) {
+    return std::ranges::any_of(table.columns, [](const std::string& column) {
+        return EQUAL(column.c_str(), "WKT") || EQUALN(column.c_str(), "_WKT", 4) || EQUAL(column.c_str(), "the_geom");
+    });
+}
+
+Table read_text(const Source& source, const CsvOptions& options) {
+    const bool prefixed = source.path.starts_with("CSV:");
+    Table table = read_csv_file(prefixed ? source.path.substr(4) : source.path, options);
+    table.file = source.describe();
+    return holds_geometry(table) ? read_by_gdal(source) : table;
+}
+
+Table read_any(const Source& source) {
+    const auto options = csv_options(source);
+    const bool own_layer = source.layer.empty() || source.layer == CPLGetBasename(source.path.c_str());
+    Table table = options && own_layer && is_text_table(source) ? read_text(source, *options) : read_by_gdal(source);
+    if (table.rows() == 0) {
+        throw InputError(table.file + ": has no row" +
+                         (source.where.empty() ? " below its header" : " that meets where=" + source.where));
+    }
+    drop_empty_columns(table);
+    accept_number_styles(table, find_optional_column(table, Meaning::id, {}));
     return table;
 }
 
 }  // namespace
 
 Table read_table(const Source& source) {
-    return naming_file(source.describe(), [&] { return read_titled(source); });
+    return naming_file(source.describe(), [&] { return read_any(source); });
 }
 
 }  // namespace terratet

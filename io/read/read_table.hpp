@@ -5,32 +5,15 @@
 /// Attribute tables of any GDAL vector source as text columns: numbers are parsed by whoever knows what a column means,
 /// so that ids stay text ("0.0", "Dec-35") and a word among numbers is found and named.
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/base/crs.hpp"
 #include "io/base/parse_number.hpp"
+#include "io/base/table.hpp"
 #include "io/source.hpp"
-#include "tess/geometry.hpp"
 
 namespace terratet {
-
-/// Cells are text without surrounding blanks; numbers of typed sources (XLSX, GeoPackage) are the shortest text that
-/// reads back as the same number, whole ones without a decimal point.
-struct Table {
-    std::string file;                             ///< for messages
-    std::vector<std::string> columns;             ///< as written, without surrounding blanks
-    std::vector<std::vector<std::string>> cells;  ///< [column][row]; empty text: null
-    std::vector<std::optional<Vec3>> points;  ///< geometry of a point layer; empty when there is none; z NaN when 2D
-    std::vector<std::int64_t> lines;          ///< 1-based line (text files) or record of each row
-    Crs crs;                                  ///< of the geometry, when the source says so
-    std::vector<std::string> notes;           ///< assumptions made in reading, for Diagnostics::notes
-
-    [[nodiscard]] std::size_t rows() const { return lines.size(); }
-};
 
 /// Columns without a name and without any cell (trailing separators) are left out. Where no number of a column has a
 /// decimal point and some can only have a decimal comma, commas become points (noted). Throws InputError: not found,
@@ -45,7 +28,6 @@ using ColumnNames = std::vector<std::pair<std::string, std::string>>;
 /// the usual aliases in any case, punctuation and units left out (BHID, HOLEID, "Hole-ID", Depth_m, "Easting [m]"; all
 /// of them in docs/inputs.md); −1 when none does. Throws UsageError when an override names a column that is not there
 /// and no alias is either, and for a meaning that does not exist.
-enum class Meaning { id, x, y, z, from, to, depth, azimuth, dip, length, name };
 int find_column(const Table& table, Meaning meaning, const ColumnNames& overrides);
 
 /// As find_column, but for a table that may do without the meaning: −1 also where find_column would throw.

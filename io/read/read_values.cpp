@@ -19,7 +19,10 @@ namespace terratet {
 
 namespace {
 
-bool is_null_word(const std::string& text) {
+bool is_null_word(std::string_view text) {
+    if (text.size() > 6) {
+        return false;
+    }
     static constexpr std::array<std::string_view, 9> words{"",     "na",     "n/a",  "#n/a", "nan",
                                                            "null", "(null)", "none", "-"};
     return std::ranges::find(words, lower_case(text)) != words.end();
@@ -34,7 +37,7 @@ bool is_placeholder(double value) {
 /// As low as a placeholder might be measured: a column that goes there means its -999.
 constexpr double plausible_low = -99;
 
-bool is_number(const std::string& text) {
+bool is_number(std::string_view text) {
     return parse_number(text) || parse_bound(text);
 }
 
@@ -176,11 +179,11 @@ ValueColumn continuous_values(const Table& table, const Choice& choice, std::siz
     ValueColumn result{index, {}};
     std::vector<Censoring> censored;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        const std::string& text = table.cells[choice.column][row];
+        const std::string_view text = table.cells[choice.column][row];
         std::optional<double> value = parse_number(text);
         censored.push_back(Censoring::none);
         if (!value && (value = parse_bound(text))) {
-            censored.back() = text.front() == '<' ? Censoring::below : Censoring::above;
+            censored.back() = is_upper_bound(text) ? Censoring::below : Censoring::above;
         }
         if (!value && !is_null_word(text)) {
             diagnostics.reject(table.file, table.lines[row],
@@ -212,14 +215,14 @@ std::vector<double> class_values(const Table& table, const Choice& choice, std::
         index.emplace(classes[i], i);
     }
     std::vector<double> values;
-    for (const std::string& text : table.cells[choice.column]) {
+    for (const std::string_view text : table.cells[choice.column]) {
         if (is_null_word(text)) {
             values.push_back(missing);
             continue;
         }
-        const auto [entry, added] = index.emplace(text, classes.size());
+        const auto [entry, added] = index.emplace(std::string(text), classes.size());
         if (added) {
-            classes.push_back(text);
+            classes.emplace_back(text);
         }
         values.push_back(static_cast<double>(entry->second));
     }

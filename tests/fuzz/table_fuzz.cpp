@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "io/base/csv_text.hpp"
-#include "io/read/read_values.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/read_values.hpp"
 #include "tess/error.hpp"
 
 using namespace terratet;
@@ -38,7 +38,7 @@ Table split(std::string_view text) {
                 table.columns.emplace_back(cell);
                 table.cells.emplace_back();
             } else {
-                table.cells[column].emplace_back(cell);
+                table.cells[column].push_back(cell);
             }
         }
         if (row > 0) {
@@ -75,8 +75,8 @@ void check_table(const Table& table) {
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
         require(table.cells[column].size() == table.rows());
         check_cell(table.columns[column]);
-        for (const std::string& cell : table.cells[column]) {
-            check_cell(cell);
+        for (const std::string_view cell : table.cells[column]) {
+            check_cell(std::string(cell));
         }
     }
     for (const Meaning meaning : {Meaning::id, Meaning::x, Meaning::from, Meaning::name}) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "io/read/read_table.hpp"
+#include "io/read/tables/csv_file.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 
@@ -27,7 +28,7 @@ Rows rows_of(const Table& table) {
     Rows rows(table.rows());
     for (const auto& column : table.cells) {
         for (std::size_t row = 0; row < rows.size(); ++row) {
-            rows[row].push_back(column[row]);
+            rows[row].emplace_back(column[row]);
         }
     }
     return rows;
@@ -122,8 +123,10 @@ TEST_CASE("decimal commas are read as such where they can be nothing else") {
     REQUIRE(table.notes.size() == 1);
     CHECK_THAT(table.notes.front(), Contains("decimal comma") && Contains("x, v"));
     const Table thousands = read_table({written(folder / "k.csv", "id;x;v\nA;1,500;1.5\n")});
-    CHECK(rows_of(thousands) == Rows{{"A", "1,500", "1.5"}});
-    CHECK(thousands.notes.empty());
+    CHECK(rows_of(thousands) == Rows{{"A", "1500", "1.5"}});  // beside a point, it parts thousands
+    const Table alone = read_table({written(folder / "a.csv", "id;x\nA;1,500\n")});
+    CHECK(rows_of(alone) == Rows{{"A", "1,500"}});
+    CHECK(alone.notes.empty());
 }
 
 TEST_CASE("GeoPackage and Shapefile give points, CRS and numbers without artefacts") {
@@ -303,4 +306,74 @@ TEST_CASE("the manual lists every alias of every meaning") {
         INFO(row);
         CHECK(manual.find(row) != std::string::npos);
     }
+}
+
+TEST_CASE("texts are split by what parts their lines most evenly, whatever else they hold") {
+    CHECK(separator_of("X;Y;Z\n1,5;2,5;3,5\n") == ';');
+    CHECK(separator_of("a,b\n1,2\n") == ',');
+    CHECK(separator_of("Hole, name;X\nA, 1;2\nB;3\n") == ';');
+    CHECK(separator_of("x\ty\n1,0\t2,0\n") == '\t');
+    CHECK(separator_of("# made by hand\nx  y   z\n1 2 3\n4   5 6\n7 8 9\n") == ' ');
+    CHECK(separator_of("Hole name\nA\nB\n") == ',');
+    const testing::TemporaryFolder folder;
+    const Table spaced = read_table({written(folder / "s.txt", "# x y  K\n 1  2 0.5\n3 4   1e-7 \n")});
+    CHECK(spaced.columns == std::vector<std::string>{"x", "y", "K"});
+    CHECK(rows_of(spaced) == Rows{{"1", "2", "0.5"}, {"3", "4", "1e-7"}});
+    const Table more = read_table({written(folder / "m.csv", "id,x\nA,2,600\nB,1,\n")});
+    REQUIRE(more.notes.size() == 1);
+    CHECK_THAT(more.notes.front(), Contains("1 records have more cells") && Contains("line 2"));
+}
+
+TEST_CASE("a quotation mark within a cell is a letter, one that begins a cell must end it") {
+    const testing::TemporaryFolder folder;
+    const Table table = read_table(
+        {written(folder / "q.csv", "id,lat,note\nA,41°17'24\"S,6\" pipe\nB,\"41°17'24\"\"S\",\"a \"b\" c\"\n")});
+    CHECK(rows_of(table) == Rows{{"A", "41°17'24\"S", "6\" pipe"}, {"B", "41°17'24\"S", "a \"b\" c"}});
+    CHECK_THROWS_WITH(read_table({written(folder / "open.csv", "id,x\nA,1\nB,\"2\nC,3\n")}),
+                      Contains("line 3: a quotation mark begins a cell that does not end"));
+}
+
+TEST_CASE("a text is split to the same cells wherever its buffer ends") {
+    const testing::TemporaryFolder folder;
+    std::string text = "id,x,note\r\n";
+    Rows rows;
+    testing::Random random(7);
+    for (int row = 0; row < 30000; ++row) {
+        const std::string id = "h" + std::to_string(random.below(1000));
+        const std::string note = random.below(3) == 0 ? "a, \"b\"\n" + std::string(random.below(40), 'x') : "";
+        std::string quoted = note;
+        for (std::size_t k = quoted.find('"'); k != std::string::npos; k = quoted.find('"', k + 2)) {
+            quoted.insert(k, 1, '"');
+        }
+        const std::string x = std::to_string(row);
+        rows.push_back({id, x, note});
+        while (!rows.back()[2].empty() && rows.back()[2].back() == ' ') {
+            rows.back()[2].pop_back();
+        }
+        text += id + "," + x + (note.empty() ? "," : ",\"" + quoted + "\"") + (random.below(2) == 0 ? "\r\n" : "\n");
+    }
+    REQUIRE(text.size() > 2 * (1U << 18U));
+    CHECK(rows_of(read_table({written(folder / "long.csv", text)})) == rows);
+}
+
+TEST_CASE("numbers are read as people group them; what may be either is left") {
+    const testing::TemporaryFolder folder;
+    const auto column = [&](const std::string& text) { return read_table({written(folder / "n.csv", text)}).cells[1]; };
+    using Text = std::vector<std::string>;
+    for (const std::string sign : {"'", "’", " ", "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"}) {
+        INFO(sign);
+        CHECK(column("id;x\nA;2" + sign + "600" + sign + "000.25\nB;-1" + sign + "200\nC;450\n") ==
+              Text{"2600000.25", "-1200", "450"});
+        CHECK(column("id;x\nA;2" + sign + "600" + sign + "000,25\nB;<1" + sign + "200,5\n") ==
+              Text{"2600000.25", "<1200.5"});
+    }
+    CHECK(column("id;x\nA;2.600.000,25\nB;1.200\n") == Text{"2600000.25", "1200"});
+    CHECK(column("id,x\nA,\"2,600,000.25\"\nB,\"1,200\"\n") == Text{"2600000.25", "1200"});
+    CHECK(column("id;x\nA;0,5\nB;<0,01\nC;> 12,5\nD;ND\n") == Text{"0.5", "<0.01", ">12.5", "ND"});
+    CHECK(column("id;x;y\nA;1.500;2.600.000\nB;2.250;2.600.001\n") == Text{"1500", "2250"});
+    CHECK(column("id;x;y\nA;1.500;2,5\nB;2.250;3,5\n") == Text{"1.500", "2.250"});  // a point still is one
+    CHECK(column("id;x\nA;1,500\nB;2,250\n") == Text{"1,500", "2,250"});
+    CHECK(column("id;x\nA;0.5\nB;0,8\n") == Text{"0.5", "0,8"});
+    CHECK(column("id;x\nA;12 34\nB;2021-03-01\n") == Text{"12 34", "2021-03-01"});
+    CHECK(column("id;x\nA;1,5e3\nB;,5\n") == Text{"1.5e3", ".5"});
 }

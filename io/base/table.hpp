@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// A table as a file holds it: columns of text. What it means is found by its columns' names (io/read/columns.cpp).
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/base/crs.hpp"
+#include "io/base/text_column.hpp"
+#include "tess/geometry.hpp"
+
+namespace terratet {
+
+/// What a column may be.
+enum class Meaning { id, x, y, z, from, to, depth, azimuth, dip, length, name };
+
+/// Cells are text without surrounding blanks; numbers of typed sources (XLSX, GeoPackage) are the shortest text that
+/// reads back as the same number, whole ones without a decimal point.
+struct Table {
+    std::string file;                         ///< for messages
+    std::vector<std::string> columns;         ///< as written, without surrounding blanks
+    std::vector<TextColumn> cells;            ///< [column][row]; empty text: null
+    std::vector<std::optional<Vec3>> points;  ///< geometry of a point layer; empty when there is none; z NaN when 2D
+    std::vector<std::int64_t> lines;          ///< 1-based line (text files) or record of each row
+    Crs crs;                                  ///< of the geometry, when the source says so
+    std::vector<std::string> notes;           ///< assumptions made in reading, for Diagnostics::notes
+
+    [[nodiscard]] std::size_t rows() const { return lines.size(); }
+};
+
+}  // namespace terratet

@@ -10,12 +10,13 @@ find_package(GDAL 3.6 REQUIRED)
 find_package(PROJ REQUIRED)
 find_package(SQLite3 3.37 REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(TinyGLTF REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 
 # OpenVDB ships a find module, beside its library.
 find_path(TERRATET_OPENVDB_MODULE FindOpenVDB.cmake

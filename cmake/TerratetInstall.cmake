@@ -35,6 +35,6 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libterratet-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 # What terratetConfig.cmake looks for: static libraries hand their private dependencies on.
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-       libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtinygltf-dev zlib1g-dev
+       libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libmeshoptimizer-dev libcairo2-dev zlib1g-dev
        libssl-dev nlohmann-json3-dev libspdlog-dev libfmt-dev libeigen3-dev pkg-config)
 include(CPack)

@@ -9,9 +9,12 @@
 /// |---|---|---|
 /// | .vtu | VTK unstructured grid, appended raw | write_vtu |
 /// | .glb .gltf | glTF 2.0 scene | write_gltf |
+/// | .html | a page to look at the scene with | write_html |
+/// | .png | a picture of the scene | write_png |
 /// | .vdb | OpenVDB, one FloatGrid a property | write_vdb |
 /// | .csv | vertices with values | write_csv |
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,17 +40,46 @@ enum class FaultGap {
     collapse,  ///< VTU and glTF: none; the sheets meet on the fault, whose nodes are split (tess/collapse.hpp)
 };
 
+/// A plane through the model to look at, in true coordinates; upright or level.
+struct Section {
+    std::string name;
+    Vec3 point;
+    Vec3 normal;                                ///< of unit length
+    std::optional<std::array<Vec3, 2>> ends{};  ///< in plan: only between these
+};
+
+/// From "x1,y1,x2,y2" (upright between two places), "z=V" (level) or "AZIMUTH,x,y" (upright through a place, running
+/// that way, degrees from grid north). Throws UsageError.
+Section parse_section(const std::string& text);
+
+/// Where to draw a property's isosurfaces.
+struct IsoLevels {
+    std::string property;
+    std::vector<double> values;  ///< measured
+};
+
+/// From "PROPERTY=VALUE[,VALUE]". Throws UsageError.
+IsoLevels parse_iso(const std::string& text);
+
 struct ExportOptions {
-    std::string format;  ///< overrides the extension: VTU, GLTF, VDB, CSV
+    std::string format;  ///< overrides the extension: VTU, GLTF, HTML, PNG, VDB, CSV
     bool overwrite = false;
     FaultGap fault_gap = FaultGap::keep;
-    bool clip = false;           ///< VTU: only cells in the extent, cut at its planes
-    bool compress = false;       ///< VTU: zlib blocks
-    Vec3 voxel_size{0, 0, 0};    ///< 0: the extent's longest side / 128, over the frame's z_scale in z, rounded to
-                                 ///< 1-2-5
-    bool local_origin = false;   ///< VDB: grid in frame-local coordinates, for float-based tools
-    std::string color_property;  ///< glTF: which property colours the scene; empty: the first
+    bool clip = false;          ///< VTU: only cells in the extent, cut at its planes
+    bool compress = false;      ///< VTU: zlib blocks; glTF: meshopt, 16 bits an axis
+    Vec3 voxel_size{0, 0, 0};   ///< 0: the extent's longest side / 128, over the frame's z_scale in z, rounded to
+                                ///< 1-2-5
+    bool local_origin = false;  ///< VDB: grid in frame-local coordinates, for float-based tools
+    // Of scenes (glTF, HTML, PNG):
+    std::string color_property;  ///< which property colours the scene; empty: the first
     std::string color_map = "viridis";
+    std::vector<Section> sections;  ///< none: two through the middle of the samples
+    std::vector<IsoLevels> iso;     ///< none: at the quartiles of the property that colours the scene
+    bool enu = false;               ///< glTF: east, north and up on the globe instead of the grid's offsets
+    std::array<std::uint32_t, 2> picture_size{1600, 1000};  ///< PNG: width and height
+    std::string title;                                      ///< HTML, PNG; empty: the name of the file
+    std::string made_by;                                    ///< HTML: the program, and how one comes to such a model
+    std::optional<double> max_extrapolation;                ///< scenes: grey beyond; none: where no sample reaches
     Progress progress;
 };
 
@@ -93,6 +125,8 @@ std::string output_format(const std::string& path, const std::string& override_f
 
 OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_gltf(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_html(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_png(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_vdb(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
 

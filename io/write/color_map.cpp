@@ -74,6 +74,14 @@ ColorMap ColorMap::named(const std::string& name) {
     throw UsageError("unknown colour map '" + name + "'; there are " + choices);
 }
 
+std::vector<std::string> ColorMap::names() {
+    std::vector<std::string> result;
+    for (const NamedMap& map : maps) {
+        result.emplace_back(map.name);
+    }
+    return result;
+}
+
 Color ColorMap::at(double t) const {
     const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(anchors_.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(place), anchors_.size() - 2);

@@ -35,6 +35,10 @@ class ColorMap {
     /// UsageError that lists them.
     static ColorMap named(const std::string& name);
 
+    /// Of all there are.
+    static std::vector<std::string> names();
+    [[nodiscard]] const std::vector<Color>& anchors() const { return anchors_; }  ///< evenly apart, 0 to 1
+
     /// t is clamped to 0…1; between the map's anchors interpolated in sRGB.
     [[nodiscard]] Color at(double t) const;
 

@@ -18,11 +18,13 @@ struct Format {
 };
 
 constexpr Format formats[] = {
-    {"VTU", ".vtu", write_vtu}, {"GLTF", ".glb", write_gltf}, {"GLTF", ".gltf", write_gltf},
-    {"VDB", ".vdb", write_vdb}, {"CSV", ".csv", write_csv},
+    {"VTU", ".vtu", write_vtu},    {"GLTF", ".glb", write_gltf}, {"GLTF", ".gltf", write_gltf},
+    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},   {"VDB", ".vdb", write_vdb},
+    {"CSV", ".csv", write_csv},
 };
 
-constexpr const char* choices = ".vtu, .glb, .gltf, .vdb and .csv, or `format` VTU, GLTF, VDB or CSV";
+constexpr const char* choices =
+    ".html, .png, .glb, .gltf, .vtu, .vdb and .csv, or `format` HTML, PNG, GLTF, VTU, VDB or CSV";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -64,7 +66,7 @@ double rounded_1_2_5(double value) {
 }  // namespace
 
 std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap) {
-    if (gap == FaultGap::collapse && !model.barriers.empty() && (format == "VTU" || format == "GLTF")) {
+    if (gap == FaultGap::collapse && !model.barriers.empty() && format != "VDB" && format != "CSV") {
         return Collapsing::all;
     }
     return has_bounds(model) ? std::optional(Collapsing::bounds) : std::nullopt;

@@ -24,7 +24,7 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.vdb", "a.csv"};
+const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.html", "a.png", "a.vdb", "a.csv"};
 
 }  // namespace
 
@@ -32,6 +32,8 @@ TEST_CASE("A path's extension tells the format, unless a format is given") {
     CHECK(output_format("out/model.VTU") == "VTU");
     CHECK(output_format("model.glb") == "GLTF");
     CHECK(output_format("model.gltf") == "GLTF");
+    CHECK(output_format("scene.HTML") == "HTML");
+    CHECK(output_format("model.bin", "png") == "PNG");
     CHECK(output_format("model.txt", "csv") == "CSV");
     CHECK(output_format("model.bin", "glb") == "GLTF");
     CHECK_THROWS_AS(output_format("model.shp"), UsageError);

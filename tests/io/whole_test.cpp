@@ -53,7 +53,7 @@ std::vector<Writer> writers() {
         return testing::random_model(seed);
     }();
     std::vector<Writer> all;
-    for (const char* name : {"a.vtu", "compressed.vtu", "a.glb", "a.gltf", "a.vdb", "a.csv"}) {
+    for (const char* name : {"a.vtu", "compressed.vtu", "a.glb", "a.gltf", "a.html", "a.png", "a.vdb", "a.csv"}) {
         all.push_back({name, [name](const std::string& path) {
                            ExportOptions options;
                            options.overwrite = true;

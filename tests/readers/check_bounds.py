@@ -135,7 +135,7 @@ def main():
         else:
             checked = 0
             for name, places, triangles in glb_meshes(path):
-                if name.startswith(("domain boundary", "region", "layer", "isosurface", "fault", "horizon")):
+                if name.startswith(("section", "ground", "region", "layer", "isosurface", "fault", "horizon")):
                     used = places if triangles is None else places[numpy.unique(triangles)]
                     check(f"{path} {name}", used)
                     checked += 1

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "grid_model.hpp"
+#include "io/base/crs.hpp"
 #include "io/export.hpp"
 
 int main(int argc, char** argv) {
@@ -18,7 +19,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     const std::string folder = std::string(argv[1]) + "/";
-    const testing::GridModel grid;
+    testing::GridModel grid;
+    grid.model.frame.crs_wkt = parse_crs("EPSG:3067").wkt;
     const ModelView view{grid.model, grid.mesh, grid.cells};
     ExportOptions options;
     options.overwrite = true;
@@ -26,10 +28,15 @@ int main(int argc, char** argv) {
     for (const char* name : {"model.vtu", "model.glb", "model.gltf", "model.vdb", "model.csv"}) {
         export_model(view, folder + name, options);
     }
+    options.enu = true;
+    export_model(view, folder + "globe.glb", options);
+    options.enu = false;
     options.local_origin = true;
     export_model(view, folder + "local.vdb", options);
     options.compress = true;
     export_model(view, folder + "compressed.vtu", options);
+    export_model(view, folder + "packed.glb", options);
+    options.compress = false;
     options.clip = true;
     export_model(view, folder + "clipped.vtu", options);
     options.color_property = "lithology";

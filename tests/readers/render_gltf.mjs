@@ -79,7 +79,7 @@ if (!result) {
     const node = nodes.find(({ name }) => name.startsWith(wanted));
     if (!node) problems.push(`no node '${wanted}' among ${nodes.map(({ name }) => name).join(', ')}`);
     else if (!(node.triangles > 0)) problems.push(`node '${wanted}' has no triangles`);
-    else if (!wanted.startsWith('fault') && !node.colored) problems.push(`node '${wanted}' has no colours or values`);
+    else if (/^(section|borehole)/.test(wanted) && !node.colored) problems.push(`node '${wanted}' has no colours or values`);
   }
   console.log(`${file}: ${(100 * drawn).toFixed(1)} % drawn by ${result.renderer}; ` +
               nodes.map(({ name, triangles }) => `${name} (${triangles})`).join(', '));

@@ -34,7 +34,7 @@ def read_floats(document, binary, accessor):
 
 
 class Extrapolation(Case):
-    def test_gltf_has_at_each_vertex_the_distance_to_the_samples_over_twice_the_reach(self):
+    def test_the_distance_to_the_samples_over_twice_the_reach_and_sections_between_the_vertices(self):
         random.seed(5)
         samples = [(random.uniform(0, 400), random.uniform(0, 400), random.uniform(-200, 0)) for _ in range(60)]
         samples = [tuple(round(c, 3) for c in p) for p in samples]
@@ -56,7 +56,7 @@ class Extrapolation(Case):
                 self.assertAlmostEqual(float(row["extrapolation"]), expected(place), delta=1e-9)
         document, binary = read_glb(self.folder / "m.glb")
         origin = document["asset"]["extras"]["origin"]
-        seen = []
+        seen, errors = [], []
         for mesh in document["meshes"]:
             for primitive in mesh["primitives"]:
                 attributes = primitive["attributes"]
@@ -67,11 +67,14 @@ class Extrapolation(Case):
                 self.assertEqual(len(places), len(values))
                 for (x, up, south), (value,) in zip(places, values):
                     place = x + origin[0] - 500000, -south + origin[1] - 6700000, up + origin[2]
-                    self.assertAlmostEqual(value, expected(place), delta=1e-5)
+                    # Linear along the cells' edges, whose ends are exact.
+                    self.assertAlmostEqual(value, expected(place), delta=0.1)
                     seen.append(value)
+                    errors.append(abs(value - expected(place)))
         self.assertGreater(len(seen), 500)
         self.assertLess(min(seen), 0.9)
         self.assertEqual(max(seen), 1)
+        self.assertLess(sum(errors) / len(errors), 0.01)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ class Layers(Case):
         result = subprocess.run([VTK_PYTHON, BOUNDS, "--ground", self.folder / "ground.asc", self.folder / "m.glb"],
                                 capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertIn("m.glb domain boundary above", result.stdout)
+        self.assertIn("m.glb ground above", result.stdout)
         with open(self.folder / "m.csv", newline="") as table:
             rows = list(csv.DictReader(table))
         self.assertGreater(len(rows), 1000)

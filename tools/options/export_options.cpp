@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -52,14 +54,63 @@ FaultGap fault_gap(const ExportArguments& a) {
     return choose<FaultGap>("--fault-gap", a.fault_gap, {{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}});
 }
 
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const char* last = text.data() + end;
+        double number = 0;
+        const auto [stop, error] = std::from_chars(text.data() + begin, last, number);
+        if (error != std::errc() || stop != last || !std::isfinite(number)) {
+            throw UsageError(fmt::format("{}: '{}' is not a number", option, text.substr(begin, end - begin)));
+        }
+        numbers.push_back(number);
+        begin = end + 1;
+    }
+    if (numbers.size() != count) {
+        throw UsageError(
+            fmt::format("{}: '{}' are {} numbers, and {} are needed", option, text, numbers.size(), count));
+    }
+    return numbers;
+}
+
+/// What scenes need and no model.
+ExportOptions scene_options(const ExportArguments& a) {
+    ExportOptions options;
+    for (const std::string& section : a.sections) {
+        options.sections.push_back(parse_section(section));
+    }
+    for (const std::string& iso : a.iso) {
+        options.iso.push_back(parse_iso(iso));
+    }
+    if (!a.max_extrapolation.empty()) {
+        options.max_extrapolation = parse_numbers("--max-extrapolation", a.max_extrapolation, 1)[0];
+        if (*options.max_extrapolation < 0) {
+            throw UsageError(fmt::format("--max-extrapolation: {} is below 0", a.max_extrapolation));
+        }
+    }
+    if (!a.size.empty()) {
+        const std::vector<double> size = parse_numbers("--size", a.size, 2);
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (!(size[k] >= 200 && size[k] <= 8000)) {
+                throw UsageError(fmt::format("--size: '{}' is not within 200 and 8000 pixels", a.size));
+            }
+            options.picture_size[k] = static_cast<std::uint32_t>(size[k]);
+        }
+    }
+    options.enu = !a.frame.empty() && choose<bool>("-co FRAME", upper(a.frame), {{"GRID", false}, {"ENU", true}});
+    return options;
+}
+
 }  // namespace
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
-    return {{"Outputs (by extension: .vtu, .glb, .gltf, .vdb, .csv)",
+    return {{"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vdb, .csv)",
              {
                  {{"of"},
                   "FORMAT",
-                  "instead of the extension's: VTU, GLTF, VDB, CSV; with it the output may be -, standard output",
+                  "instead of the extension's: HTML, PNG, GLTF, VTU, VDB, CSV; with it the output may be -, standard "
+                  "output",
                   &a.format},
                  {{"tr", "voxel-size"},
                   "LENGTH[,LENGTH,LENGTH]",
@@ -72,7 +123,7 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
                   "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
                   "fault, its nodes split",
                   &a.fault_gap},
-                 {{"compress"}, "", "VTU: with zlib", &a.compress},
+                 {{"compress"}, "", "VTU: with zlib; glTF: with meshopt, 16 bits an axis", &a.compress},
                  {{"local-origin"},
                   "",
                   "VDB: coordinates from the model's origin, for Blender and Houdini",
@@ -83,8 +134,22 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
                   "category "
                   "the classes' probabilities and entropy",
                   &a.uncertainty},
-                 {{"color"}, "PROPERTY", "glTF: what to colour by; the first by default", &a.color},
-                 {{"color-map"}, "NAME", "glTF: viridis by default", &a.color_map},
+                 {{"color"}, "PROPERTY", "scenes: what to colour by; the first by default", &a.color},
+                 {{"color-map"}, "NAME", "scenes: viridis by default", &a.color_map},
+                 {{"section"},
+                  "WHERE",
+                  "scenes: a section x1,y1,x2,y2 (upright), z=V (level) or AZIMUTH,x,y; repeatable; by default two "
+                  "through the middle of the samples",
+                  &a.sections},
+                 {{"iso"},
+                  "PROPERTY=VALUE[,VALUE]",
+                  "scenes: isosurfaces; repeatable; by default at the quartiles of what is coloured",
+                  &a.iso},
+                 {{"max-extrapolation"},
+                  "E",
+                  "scenes: grey where the extrapolation is above E, 0 to 1; by default where no sample reaches",
+                  &a.max_extrapolation},
+                 {{"size"}, "WIDTH,HEIGHT", "PNG: in pixels, 1600,1000 by default", &a.size},
                  {{"co"}, "KEY=VALUE", "the same as creation options: -co COMPRESS=YES", &a.creation_options},
              }}};
 }
@@ -113,9 +178,12 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.color = value;
         } else if (key == "COLOR_MAP") {
             a.color_map = value;
+        } else if (key == "FRAME") {
+            a.frame = value;
         } else {
             throw UsageError(fmt::format(
-                "-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, FAULT_GAP, COLOR, COLOR_MAP", key));
+                "-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, FAULT_GAP, COLOR, COLOR_MAP, FRAME",
+                key));
         }
     }
     a.creation_options.clear();
@@ -128,11 +196,12 @@ void check_export_arguments(const ExportArguments& arguments) {
         parse_voxel_size(a.voxel_size, 1.0);
     }
     fault_gap(a);
+    scene_options(a);
 }
 
 ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {
     const ExportArguments a = with_creation_options(arguments);
-    ExportOptions options;
+    ExportOptions options = scene_options(a);
     options.format = a.format;
     options.fault_gap = fault_gap(a);
     options.clip = a.clip;

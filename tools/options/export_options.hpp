@@ -22,6 +22,11 @@ struct ExportArguments {
     std::string fault_gap = "keep";
     std::string color;
     std::string color_map = ExportOptions{}.color_map;
+    std::vector<std::string> sections;
+    std::vector<std::string> iso;
+    std::string max_extrapolation;
+    std::string size;
+    std::string frame;
     std::vector<std::string> creation_options;
 };
 

@@ -17,6 +17,7 @@
 #include "io/source.hpp"
 #include "tess/error.hpp"
 #include "tools/run/process.hpp"
+#include "tools/version.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -120,6 +121,18 @@ OutputRecord export_to_standard_output(const ModelSnapshot& model, const ExportO
     return record;
 }
 
+/// Version and command for whoever opens an output: from what is in the model, so that equal models give equal bytes.
+std::string made_by(const Model& model) {
+    std::string text = fmt::format("Terratet {}: terratet build --lmin {:.6g} --lmax {:.6g}", version,
+                                   model.criteria.l_min, model.criteria.l_max);
+    for (const Property& property : model.properties) {
+        text += fmt::format(" --property {}{}{}", property.name, property.scale == Scale::log10 ? ":log10" : "",
+                            property.kind == Kind::categorical ? ":categorical" : "");
+    }
+    const std::string method = model.estimator.substr(0, model.estimator.find_first_of(":\n "));
+    return method.empty() ? text : fmt::format("{} --estimator {}", text, method);
+}
+
 }  // namespace
 
 bool names_model(const std::string& path) {
@@ -170,6 +183,7 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     ExportOptions options = writer_options(arguments, model.model());
     options.overwrite = run.overwrite;
     options.progress = progress;
+    options.made_by = made_by(model.model());
     Written written;
     const auto write_output = [&](const std::string& path) {
         if (names_model(path)) {

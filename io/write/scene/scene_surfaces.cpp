@@ -94,7 +94,12 @@ std::vector<ScenePart> surface_parts(const SceneCells& cells, const ModelView& v
         }
     }
     std::vector<ScenePart> parts;
-    parts.push_back(ground.take(cells, frame));
+    if (std::any_of(view.model.surfaces.begin(), view.model.surfaces.end(),
+                    [](const Surface& surface) { return surface.kind == SurfaceKind::topography; })) {
+        parts.push_back(ground.take(cells, frame));
+    } else {
+        parts.emplace_back();
+    }
     parts.back().color = {0.62, 0.55, 0.42};
     parts.back().opacity = 0.35;
     if (blocks.size() > 1) {

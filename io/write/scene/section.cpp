@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/read/tables/parse_number.hpp"
+#include "io/base/parse_number.hpp"
 #include "io/export.hpp"
 #include "tess/error.hpp"
 

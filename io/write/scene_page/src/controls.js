@@ -475,7 +475,7 @@ export class Controls {
   }
 
   key(event) {
-    if (event.target.matches('input, select, textarea') || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target.matches?.('input, select, textarea') || event.ctrlKey || event.metaKey || event.altKey) return;
     const toggle = (key) => this.set({ [key]: !this.state[key] });
     const step = (sign) => {
       const key = sectionKeys.includes(this.active) && this.active !== 'free' ? this.active : 'ew';

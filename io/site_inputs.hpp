@@ -21,6 +21,13 @@ enum class DipConvention { automatic, down_positive, down_negative, inclination 
 /// Where azimuths count from. grid: the north of the collars' own CRS (true north when that is geographic).
 enum class AzimuthReference { grid, true_north, magnetic };
 
+/// Which way z counts in tables and in meshes that do not say it themselves. automatic: upwards, but downwards in
+/// columns called so (TVDSS, TVD, depth), noted.
+enum class ZPositive { automatic, up, down };
+
+/// What tops and bottoms of logs are. automatic: depths, but heights where they fall from those of the collars, noted.
+enum class Intervals { automatic, depth, elevation };
+
 struct SiteInputs {
     std::vector<Source> boreholes{};  ///< collar tables
     std::vector<Source> surveys{};
@@ -40,8 +47,13 @@ struct SiteInputs {
     AzimuthReference azimuth = AzimuthReference::grid;
     double declination_deg = 0;  ///< magnetic only, east positive
     std::string depth_unit{};    ///< of depths and lengths along holes: "m", "ft"; empty: the collars' own CRS's unit
-    double z_scale = 0;          ///< of the frame; 0: chosen for flat data (tess/site/site_box.hpp), with a note
-    bool strict = false;         ///< the first dirty record is an InputError
+    std::vector<std::string> nulls{};  ///< VALUE or P=VALUE, a number or a word: no value, in all columns or in one
+    ZPositive z_positive = ZPositive::automatic;
+    Intervals intervals = Intervals::automatic;
+    std::string
+        fault_depth{};    ///< of traces' surfaces below zero, a length with or without unit; empty: by their table
+    double z_scale = 0;   ///< of the frame; 0: chosen for flat data (tess/site/site_box.hpp), with a note
+    bool strict = false;  ///< the first dirty record is an InputError
 };
 
 }  // namespace terratet

@@ -185,6 +185,34 @@ Crs crs_from_wkt(const std::string& wkt) {
     return lower_case(result.name).find("undefined") == std::string::npos ? result : Crs{};
 }
 
+bool AreaOfUse::nearly_holds(double longitude_deg, double latitude_deg) const {
+    const double width = east - west + (east < west ? 360 : 0);
+    const double margin = std::min(1.0, 0.1 * std::max(width, north - south));
+    const double from_west = longitude_deg - west - 360 * std::floor((longitude_deg - west + margin) / 360);
+    return from_west <= width + margin && latitude_deg >= south - margin && latitude_deg <= north + margin;
+}
+
+std::optional<AreaOfUse> area_of_use(const Crs& crs) {
+    const Context context = quiet_context();
+    Pj pj(proj_create(context.get(), crs.wkt.c_str()));
+    AreaOfUse area;
+    const char* name = nullptr;
+    const auto ask = [&](const Pj& object) {
+        return object &&
+               proj_get_area_of_use(context.get(), object.get(), &area.west, &area.south, &area.east, &area.north,
+                                    &name) != 0 &&
+               area.west >= -180;
+    };
+    if (!ask(pj)) {
+        pj = horizontal_part(context.get(), std::move(pj));
+        if (!ask(pj)) {
+            return std::nullopt;
+        }
+    }
+    area.name = name == nullptr ? "" : name;
+    return area;
+}
+
 Crs utm_zone(double longitude_deg, double latitude_deg) {
     if (!(latitude_deg >= -80 && latitude_deg <= 84) || !std::isfinite(longitude_deg)) {
         throw InputError("no UTM zone at longitude " + std::to_string(longitude_deg) + ", latitude " +

@@ -8,6 +8,7 @@
 /// unit (US survey feet for a state plane in feet), with a plain geographic one in metres.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,18 @@ Crs parse_crs(const std::string& text);
 /// From a WKT as a file carries it; empty Crs for an empty or unusable one, and for the "Undefined …" that GeoPackages
 /// store for unknown.
 Crs crs_from_wkt(const std::string& wkt);
+
+/// Where a CRS is meant to be used, in degrees; across the antimeridian when west > east.
+struct AreaOfUse {
+    double west = 0, south = 0, east = 0, north = 0;
+    std::string name;  ///< "New Zealand - onshore"
+
+    /// Within, or beyond by at most a tenth of its size and a degree. False for NaN.
+    [[nodiscard]] bool nearly_holds(double longitude_deg, double latitude_deg) const;
+};
+
+/// nullopt when it does not say.
+std::optional<AreaOfUse> area_of_use(const Crs& crs);
 
 /// The UTM zone (WGS 84, EPSG:326zz or 327zz) of a place, Norway's and Svalbard's exceptions included. Throws
 /// InputError beyond 84° N and 80° S, where there is none.

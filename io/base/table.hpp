@@ -16,7 +16,22 @@
 namespace terratet {
 
 /// What a column may be.
-enum class Meaning { id, x, y, z, from, to, depth, azimuth, dip, length, name };
+enum class Meaning {
+    id,
+    x,
+    y,
+    z,
+    from,
+    to,
+    depth,
+    azimuth,
+    dip,
+    length,
+    name,
+    qualifier,      ///< says that values beside it are bounds
+    dip_direction,  ///< of a trace
+    lower_depth,    ///< to which a trace's surface reaches
+};
 
 /// Cells are text without surrounding blanks; numbers of typed sources (XLSX, GeoPackage) are the shortest text that
 /// reads back as the same number, whole ones without a decimal point.

@@ -13,8 +13,9 @@ namespace terratet {
 
 namespace {
 
-constexpr std::array<const char*, 11> meaning_names{"id",    "x",       "y",   "z",      "from", "to",
-                                                    "depth", "azimuth", "dip", "length", "name"};
+constexpr std::array<const char*, 14> meaning_names{"id",           "x",         "y",   "z",      "from", "to",
+                                                    "depth",        "azimuth",   "dip", "length", "name", "qualifier",
+                                                    "dipdirection", "lowerdepth"};
 
 constexpr std::array<std::string_view, 18> unit_words{"m",     "ft",     "feet", "foot", "metre",  "metres",
                                                       "meter", "meters", "km",   "deg",  "degree", "degrees",
@@ -26,9 +27,24 @@ std::string_view without_bracket(std::string_view header) {
     return open == std::string_view::npos || open == 0 ? header : header.substr(0, open);
 }
 
+/// ä, ö and ü as German writes them without their letters.
+std::string transliterated(std::string_view text) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> letters{
+        {{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "ae"}, {"Ö", "oe"}, {"Ü", "ue"}, {"ß", "ss"}}};
+    std::string result;
+    while (!text.empty()) {
+        const auto* const found =
+            std::ranges::find_if(letters, [&](const auto& letter) { return text.starts_with(letter.first); });
+        const bool plain = found == letters.end();
+        result += plain ? text.substr(0, 1) : found->second;
+        text.remove_prefix(plain ? 1 : found->first.size());
+    }
+    return result;
+}
+
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> words(1);
-    for (const unsigned char c : text) {
+    for (const unsigned char c : transliterated(text)) {
         if (std::isalnum(c) != 0 || c >= 0x80) {
             words.back() += static_cast<char>(std::tolower(c));
         } else if (!words.back().empty()) {
@@ -41,9 +57,17 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += word;
+    }
+    return text;
+}
+
 void require_known_meanings(const ColumnNames& overrides) {
     for (const auto& [meaning, column] : overrides) {
-        if (std::ranges::find(meaning_names, meaning) == meaning_names.end()) {
+        if (std::ranges::find(meaning_names, joined(words_of(meaning))) == meaning_names.end()) {
             std::string known;
             for (const char* name : meaning_names) {
                 known += (known.empty() ? "" : ", ") + std::string(name);
@@ -82,44 +106,119 @@ const char* to_string(Meaning meaning) {
 }
 
 const std::vector<std::string>& aliases(Meaning meaning) {
-    static const std::array<std::vector<std::string>, 11> all{{
+    static const std::array<std::vector<std::string>, 14> all{{
         // id
-        {"bhid",       "holeid",    "dhid",     "ddhid",        "drillholeid",  "boreholeid", "boreid",   "wellid",
-         "siteid",     "collarid",  "locaid",   "locationid",   "pointid",      "hole",       "holename", "holeno",
-         "holenumber", "drillhole", "borehole", "boreholename", "bore",         "boreno",     "borename", "well",
-         "wellname",   "uwi",       "api",      "idcode",       "originalname", "id",         "name"},
+        {"bhid",         "holeid",   "dhid",       "ddhid",        "drillholeid", "boreholeid",   "boreid",
+         "wellid",       "siteid",   "collarid",   "locaid",       "locationid",  "pointid",      "hole",
+         "holename",     "holeno",   "holenumber", "drillhole",    "borehole",    "boreholename", "bore",
+         "boreno",       "borename", "well",       "wellname",     "uwi",         "api",          "idcode",
+         "originalname", "bohrung",  "bohrloch",   "bohrungsname", "sondage",     "forage",       "sondeo",
+         "pozo",         "borrhal",  "boorgat",    "boring",       "id",          "name"},
         // x
-        {"xcollar", "collarx",  "x",          "xcoord",     "xcoordinate", "coordx",    "east",
-         "easting", "eastings", "eastcollar", "collareast", "utme",        "utmx",      "utmeast",
-         "xutm",    "gridx",    "locationx",  "lon",        "long",        "longitude", "xlong"},
+        {"xcollar",    "collarx",   "x",          "xcoord",     "xcoordinate", "coordx",      "east",
+         "easting",    "eastings",  "eastcollar", "collareast", "utme",        "utmx",        "utmeast",
+         "xutm",       "xutme",     "gridx",      "locationx",  "xloc",        "xlocation",   "locx",
+         "rechtswert", "rechts",    "ostwert",    "ost",        "este",        "xrd",         "lon",
+         "long",       "longitude", "xlong",      "longdd",     "londd",       "longitudedd", "laenge"},
         // y
-        {"ycollar",  "collary",   "y",     "ycoord",      "ycoordinate", "coordy",   "north",
-         "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",     "utmy",
-         "utmnorth", "yutm",      "gridy", "locationy",   "lat",         "latitude", "ylat"},
+        {"ycollar",  "collary",   "y",     "ycoord",      "ycoordinate", "coordy", "north",
+         "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",   "utmy",
+         "utmnorth", "yutm",      "yutmn", "gridy",       "locationy",   "yloc",   "ylocation",
+         "locy",     "hochwert",  "hoch",  "nordwert",    "nord",        "norte",  "yrd",
+         "lat",      "latitude",  "ylat",  "latdd",       "latitudedd",  "breite"},
         // z
-        {"zcollar",     "collarz",         "z",          "zcoord",          "zcoordinate", "coordz",   "elev",
-         "elevation",   "elevationz",      "collarelev", "collarelevation", "rl",          "collarrl", "altitude",
-         "groundlevel", "groundelevation", "locagl",     "height",          "masl",        "amsl"},
+        {"zcollar",
+         "collarz",
+         "z",
+         "zcoord",
+         "zcoordinate",
+         "coordz",
+         "elev",
+         "elevation",
+         "elevationz",
+         "collarelev",
+         "collarelevation",
+         "rl",
+         "collarrl",
+         "altitude",
+         "groundlevel",
+         "groundelevation",
+         "locagl",
+         "height",
+         "masl",
+         "amsl",
+         "zloc",
+         "zlocation",
+         "locz",
+         "hoehe",
+
+         "ansatzhoehe",
+
+         "gok",
+         "cota",
+         "altitud",
+         "tvdss",
+         "ztvdss",
+         "tvdmsl",
+         "ztvd",
+         "tvdsubsea",
+         "zdepth",
+         "depthss",
+         "subseadepth"},
         // from
-        {"from", "depthfrom", "fromdepth", "mfrom", "frommd", "mdfrom", "secup", "defr", "sampfrom", "samplefrom",
-         "intervalfrom", "top", "depthtop", "topdepth", "mdtop", "geoltop"},
+        {"from",         "depthfrom",    "fromdepth",    "mfrom",   "frommd",   "mdfrom",   "secup", "defr",
+         "sampfrom",     "samplefrom",   "intervalfrom", "top",     "depthtop", "topdepth", "mdtop", "geoltop",
+         "topelevation", "elevationtop", "topelev",      "elevtop", "von",      "desde",    "depuis"},
         // to
-        {"to", "depthto", "todepth", "mto", "tomd", "mdto", "seclow", "deto", "sampto", "sampleto", "intervalto",
-         "bottom", "depthbottom", "bottomdepth", "base", "depthbase", "basedepth", "mdbase", "geolbase"},
+        {"to",
+         "depthto",
+         "todepth",
+         "mto",
+         "tomd",
+         "mdto",
+         "seclow",
+         "deto",
+         "sampto",
+         "sampleto",
+         "intervalto",
+         "bottom",
+         "depthbottom",
+         "bottomdepth",
+         "base",
+         "depthbase",
+         "basedepth",
+         "mdbase",
+         "geolbase",
+         "bottomelevation",
+         "elevationbottom",
+         "bottomelev",
+         "elevbottom",
+         "baseelevation",
+         "bis",
+         "hasta",
+         "jusqua"},
         // depth
         {"at", "deat", "md", "measureddepth", "mdepth", "depthmd", "surveydepth", "surveyat", "depth", "dept",
-         "distance"},
+         "distance", "teufe", "tiefe", "profondeur", "profundidad", "diepte"},
         // azimuth
         {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
          "azimuthgrid", "gridazimuth"},
         // dip
-        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip"},
+        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip", "neigung", "inclinacion", "buzamiento"},
         // length
         {"length", "len", "eoh", "eodh", "td", "totaldepth", "maxdepth", "depthmax", "enddepth", "finaldepth",
-         "holelength", "holedepth", "endofhole"},
+         "holelength", "holedepth", "endofhole", "endteufe", "eoddepth", "profondeurtotale"},
         // name
-        {"name", "fault", "faultname", "faultid", "surface", "surfacename", "horizon", "structure", "object", "group",
-         "id"},
+        {"name", "fault", "faultname", "featurename", "faultid", "surface", "surfacename", "horizon", "structure",
+         "object", "group", "id"},
+        // qualifier: by its name only when named, else by what it holds
+        {},
+        // dip direction
+        {"dipdir", "dipdirection", "dipdirectiondeg", "dipazimuth", "dipaz", "azimuthofdip", "averagedipdirection",
+         "averagedipdir", "dipdirn", "downdip", "downdipdir", "downdipdirection", "fallrichtung"},
+        // lower depth of a trace
+        {"lowerdepth", "lowerseisdepth", "d90", "depthlower", "bottomdepth", "basedepth", "maxdepth",
+         "lowerseismogenicdepth", "depthtobottom", "seismodepth"},
     }};
     return all[static_cast<std::size_t>(meaning)];
 }
@@ -129,11 +228,7 @@ std::string normal_header(const std::string& header) {
     while (words.size() > 1 && std::ranges::find(unit_words, words.back()) != unit_words.end()) {
         words.pop_back();
     }
-    std::string joined;
-    for (const std::string& word : words) {
-        joined += word;
-    }
-    return joined;
+    return joined(words);
 }
 
 int column_named(const Table& table, const std::string& name) {
@@ -145,7 +240,7 @@ int column_named(const Table& table, const std::string& name) {
 int find_optional_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {
     require_known_meanings(overrides);
     for (const auto& [key, name] : overrides) {
-        if (key == to_string(meaning)) {
+        if (joined(words_of(key)) == to_string(meaning)) {
             if (const int column = column_named(table, name); column >= 0) {
                 return column;
             }

@@ -52,7 +52,13 @@ double depth_factor(const Crs& collar_crs, const Crs& target, const std::string&
 
 void note_depth_unit(const Table& table, const Crs& collar_crs, const Crs& target, const SiteInputs& inputs,
                      Diagnostics& diagnostics) {
-    if (inputs.depth_unit.empty() && depth_factor(collar_crs, target, "") != 1) {
+    const double ratio = collar_crs.metres_per_height / collar_crs.metres_per_unit;
+    if (inputs.depth_unit.empty() && !collar_crs.geographic && std::abs(ratio - 1) > 1e-5) {
+        diagnostics.note(
+            fmt::format("{}: heights and plane of {} have different units; depths along its holes are taken in {}, the "
+                        "plane's (`depth_unit` says otherwise)",
+                        table.file, collar_crs.name, collar_crs.unit));
+    } else if (inputs.depth_unit.empty() && depth_factor(collar_crs, target, "") != 1) {
         diagnostics.note(
             fmt::format("{}: depths along its holes are taken in {}, the unit of {} (`depth_unit` says otherwise)",
                         table.file, collar_crs.geographic ? "metre" : collar_crs.unit, collar_crs.name));
@@ -139,7 +145,8 @@ std::optional<Direction> direction(const Table& table, const DirectionColumns& c
     const std::string_view azimuth_text = columns.azimuth < 0 ? std::string_view{} : cell(table, columns.azimuth, row);
     const std::optional<double> azimuth = parse_number(azimuth_text);
     const bool vertical = std::abs(std::sin(inclination * std::acos(-1.0) / 180)) < 1e-9;
-    const bool no_angle = azimuth ? std::abs(*azimuth) > 360 : !azimuth_text.empty() || !vertical;
+    // A turn more or less is the same direction; more than one is none.
+    const bool no_angle = azimuth ? std::abs(*azimuth) >= 720 : !azimuth_text.empty() || !vertical;
     if (no_angle) {
         problem = azimuth_text.empty()
                       ? fmt::format("no azimuth beside the dip {}", *dip)
@@ -156,6 +163,8 @@ struct Collar {
     double unit_factor = 1;
     double azimuth_shift = 0;  ///< what to add to an azimuth of the tables to count it from the target's grid north
     double length = 0;
+    double own_height = 0;
+    double height_factor = 1;
     std::optional<Direction> direction;  ///< from the collar's own record
 };
 
@@ -206,7 +215,13 @@ void read_collars(const PlacedTable& placed, const Crs& own_crs, const Crs& targ
             reject(fmt::format("column {}: no id", header(table, id_column)));
             continue;
         }
-        Collar collar{placed.points[row], factor, 0, 0, std::nullopt};
+        Collar collar{placed.points[row],
+                      factor,
+                      0,
+                      0,
+                      placed.own_heights[row],
+                      own_crs.metres_per_height / target.metres_per_unit,
+                      std::nullopt};
         collar.azimuth_shift = azimuth_shift(placed.points[row], placed.north_deg[row], in_target, inputs);
         if (length_column >= 0 && parse_number(cell(table, length_column, row))) {
             std::string ignored;  // a length is a courtesy: a hole does without
@@ -325,7 +340,14 @@ Holes read_boreholes(const std::vector<PlacedTable>& collar_tables, const std::v
         }
         const double surveyed = stations.empty() ? 0 : stations.back().depth;
         holes.emplace(id, Hole{id, Trajectory(collar.position, std::move(stations), inputs.desurvey),
-                               collar.unit_factor, surveyed, collar.length});
+                               collar.unit_factor, surveyed});
+        holes.at(id).deepest = collar.length;
+    }
+    for (auto& [id, hole] : holes) {
+        const Collar& collar = collars.at(id);
+        hole.own_height = collar.own_height;
+        hole.height_factor = collar.height_factor;
+        hole.stated_length = collar.length;
     }
     if (by_collar > 0) {
         diagnostics.note(fmt::format("{} of {} holes have no survey and go straight in their collar's direction",

@@ -4,6 +4,7 @@
 /// \file
 /// Collar and survey tables into holes with trajectories.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,14 +22,17 @@ struct Hole {
     double unit_factor = 1;  ///< target units in a unit of the tables' depths
     double surveyed =
         0;  ///< the last station. Often a stand-in such as 90000, "to the end": it says little of the length
-    double deepest = 0;  ///< so far: the stated length; logs add theirs
+    double own_height = 0;     ///< of the collar, as its table has it
+    double height_factor = 1;  ///< target units in a unit of those heights
+    double stated_length = 0;  ///< in the target's unit; 0: not stated
+    double deepest = 0;        ///< so far: the stated length; logs add theirs
 
     /// Where the hole ends: at its stated length or deepest log record, else at its last station.
     [[nodiscard]] double end() const { return deepest > 0 ? deepest : surveyed; }
 };
 
 /// By id.
-using Holes = std::map<std::string, Hole>;
+using Holes = std::map<std::string, Hole, std::less<>>;
 
 /// Depths beyond this are no depths (the deepest hole has 12.3 km).
 inline constexpr double max_depth_m = 50e3;

@@ -5,9 +5,9 @@
 #include <map>
 #include <numbers>
 
-#include "io/read/read_surfaces.hpp"
-#include "io/read/rejections.hpp"
+#include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

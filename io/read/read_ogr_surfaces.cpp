@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "io/base/gdal_dataset.hpp"
+#include "io/base/rejections.hpp"
+#include "io/base/text_lines.hpp"
 #include "io/read/polygon_surface.hpp"
 #include "io/read/read_surfaces.hpp"
-#include "io/read/rejections.hpp"
-#include "io/base/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "io/read/area_of_use.hpp"
+#include "io/read/tables/degrees.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -89,8 +92,96 @@ PositionColumns choose_columns(const Table& table, const ColumnNames& names, Dia
     return columns;
 }
 
+/// Headers of heights that count downwards, and of such as surely count upwards.
+bool names_depth(const std::string& column) {
+    const std::string name = normal_header(column);
+    return name.find("tvd") != std::string::npos || name.find("depth") != std::string::npos || name == "subsea";
+}
+
+bool names_height(const std::string& column) {
+    const std::string name = normal_header(column);
+    return std::ranges::any_of(std::array{"elev", "height", "altit", "masl", "amsl", "hoehe", "ansatz", "cota", "rl"},
+                               [&](const char* word) { return name.starts_with(word); });
+}
+
+/// 1, or −1 where the heights of a table count downwards; noted.
+double height_sign(const Table& table, const PositionColumns& columns, ZPositive z_positive, Diagnostics& diagnostics) {
+    const std::string name = columns.z < 0 ? "" : header(table, columns.z);
+    if (z_positive == ZPositive::automatic && names_depth(name)) {
+        diagnostics.note(
+            fmt::format("{}: column {} is read as positive downwards, by its name (`z_positive` up says otherwise)",
+                        table.file, name));
+        return -1;
+    }
+    if (z_positive == ZPositive::down && names_height(name)) {
+        diagnostics.note(fmt::format(
+            "{}: column {} is read as positive upwards, by its name, whatever `z_positive` says", table.file, name));
+        return 1;
+    }
+    return z_positive == ZPositive::down ? -1 : 1;
+}
+
+/// The codes in a column of coordinates that are none, by themselves or since the user says so.
+class NoCoordinates {
+  public:
+    NoCoordinates(const Table& table, int column, const char* meaning, const std::vector<NullValue>& nulls)
+        : nulls_(nulls), names_{meaning} {
+        if (column < 0) {
+            return;
+        }
+        names_.push_back(header(table, column));
+        std::vector<double> values;
+        for (const std::string_view text : table.cells[static_cast<std::size_t>(column)]) {
+            values.push_back(parse_number(text).value_or(missing));
+        }
+        for (const NullCode& found : null_codes(values)) {
+            if (found.far) {
+                codes_.push_back(found.code);
+            }
+        }
+    }
+
+    /// A zero for all columns is no word on coordinates.
+    [[nodiscard]] bool holds(std::string_view text, double value) const {
+        return std::ranges::find(codes_, value) != codes_.end() || says_null(nulls_, names_, text, value, value != 0);
+    }
+
+  private:
+    const std::vector<NullValue>& nulls_;
+    std::vector<std::string> names_;
+    std::vector<double> codes_;
+};
+
+/// All that is needed to read the position in a row.
+struct PositionReader {
+    const Table& table;
+    const Crs& crs;
+    PositionColumns columns;
+    double height_sign = 1;
+    std::array<NoCoordinates, 3> none;
+};
+
+/// Degrees, minutes and seconds on axis 0 (longitude) or 1, or why they are none here.
+std::optional<double> degrees_in(std::string_view text, int axis, const Crs& crs, std::string& problem) {
+    const std::optional<Degrees> degrees = axis < 2 && !crs.local ? parse_degrees(text) : std::nullopt;
+    if (!degrees) {
+        return std::nullopt;
+    }
+    const bool latitude = degrees->hemisphere == 'N' || degrees->hemisphere == 'S';
+    const bool longitude = degrees->hemisphere == 'E' || degrees->hemisphere == 'W';
+    if (!crs.geographic) {
+        problem = fmt::format("'{}' is an angle, but the coordinate system is {}; add srs=EPSG:4326 to the file", text,
+                              crs.name);
+    } else if ((axis == 0 && latitude) || (axis == 1 && longitude)) {
+        problem = fmt::format("'{}' is a {}; are x and y exchanged?", text, latitude ? "latitude" : "longitude");
+    }
+    return problem.empty() ? std::optional(degrees->value) : std::nullopt;
+}
+
 /// One axis of one row, or why there is none.
-double coordinate(const Table& table, int column, std::size_t row, double in_geometry, std::string& problem) {
+double coordinate(const PositionReader& reader, int axis, int column, std::size_t row, double in_geometry,
+                  std::string& problem) {
+    const Table& table = reader.table;
     if (column < 0) {
         if (std::isnan(in_geometry)) {
             problem = "the point has no height";
@@ -98,36 +189,41 @@ double coordinate(const Table& table, int column, std::size_t row, double in_geo
         return in_geometry;
     }
     const std::string_view text = cell(table, column, row);
-    const std::optional<double> value = parse_number(text);
-    if (!value) {
+    std::optional<double> value = parse_number(text);
+    if (value && reader.none[static_cast<std::size_t>(axis)].holds(text, *value)) {
+        problem = fmt::format("column {}: {} stands for no value", header(table, column), text);
+        return missing;
+    }
+    if (!value && !(value = degrees_in(text, axis, reader.crs, problem)) && problem.empty()) {
         problem = text.empty() ? fmt::format("column {} is empty", header(table, column))
                                : fmt::format("column {}: '{}' is not a number", header(table, column), text);
     }
-    return value.value_or(missing);
+    return value.value_or(missing) * (axis == 2 ? reader.height_sign : 1);
 }
 
 /// A row's position; nowhere, with the reason in `problem`, when it has none that is acceptable.
-Vec3 position(const Table& table, const PositionColumns& columns, const Crs& crs, std::size_t row,
-              std::string& problem) {
+Vec3 position(const PositionReader& reader, std::size_t row, std::string& problem) {
+    const auto& [table, crs, columns, sign, none] = reader;
     const bool from_columns = columns.plane();
     if (!from_columns && !table.points[row]) {
         problem = "no point geometry";
         return nowhere;
     }
     const Vec3 point = table.points.empty() ? nowhere : table.points[row].value_or(nowhere);
-    const Vec3 result{coordinate(table, from_columns ? columns.x : -1, row, point.x, problem),
-                      coordinate(table, from_columns ? columns.y : -1, row, point.y, problem),
-                      coordinate(table, columns.z, row, point.z, problem)};
+    const Vec3 result{coordinate(reader, 0, from_columns ? columns.x : -1, row, point.x, problem),
+                      coordinate(reader, 1, from_columns ? columns.y : -1, row, point.y, problem),
+                      coordinate(reader, 2, columns.z, row, point.z, problem)};
     if (!problem.empty()) {
         return nowhere;
     }
     if (!is_acceptable(result)) {
         problem = fmt::format("position {}, {}, {} is beyond {:g}", result.x, result.y, result.z, max_coordinate);
     } else if (crs.geographic && (std::abs(result.x) > 360 || std::abs(result.y) > 90)) {
-        problem = fmt::format(
-            "{}, {} is no longitude and latitude, which {} asks for; give the right system with "
-            "-s_srs or srs=",
-            result.x, result.y, crs.name);
+        problem =
+            fmt::format("{}, {} is no longitude and latitude, which {} asks for; {}", result.x, result.y, crs.name,
+                        std::abs(result.x) <= 90 && std::abs(result.y) <= 360
+                            ? "exchanged they would be: name the columns, or give the right system with -s_srs or srs="
+                            : "give the right system with -s_srs or srs=");
     }
     return problem.empty() ? result : nowhere;
 }
@@ -158,7 +254,7 @@ void require_usable_row(const PlacedTable& placed, const Diagnostics& diagnostic
 }  // namespace
 
 PlacedTable place(Table table, const Source& source, const std::string& general_crs, const ColumnNames& names,
-                  Diagnostics& diagnostics) {
+                  Diagnostics& diagnostics, const PlaceOptions& options) {
     const std::size_t first_rejection = diagnostics.rejected.size();
     const PositionColumns columns = choose_columns(table, names, diagnostics);
     const std::string hint = names_degrees(table, columns)
@@ -166,21 +262,35 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
                                                header(table, columns.y))
                                  : "";
     Crs crs = resolved_crs(source, table.crs, general_crs, hint);
-    PlacedTable placed{std::move(table), std::move(crs), {}, {}};
+    PlacedTable placed{std::move(table), std::move(crs), {}};
+    const Table& held = placed.table;
+    const PositionReader reader{
+        held,
+        placed.crs,
+        columns,
+        height_sign(held, columns, options.z_positive, diagnostics),
+        {NoCoordinates(held, columns.x, "x", options.nulls), NoCoordinates(held, columns.y, "y", options.nulls),
+         NoCoordinates(held, columns.z, "z", options.nulls)}};
     for (std::size_t row = 0; row < placed.table.rows(); ++row) {
         std::string problem;
-        placed.points.push_back(position(placed.table, columns, placed.crs, row, problem));
+        placed.points.push_back(position(reader, row, problem));
         if (!problem.empty()) {
             diagnostics.reject(placed.table.file, placed.table.lines[row], problem);
         }
     }
     require_usable_row(placed, diagnostics, first_rejection);
     refuse_degrees_in_plane(placed, columns);
+    if (const std::string remark = outside_area_of_use(placed.points, placed.crs); !remark.empty()) {
+        diagnostics.note(held.file + ": " + remark);
+    }
     return placed;
 }
 
 void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics) {
     const std::size_t first_rejection = diagnostics.rejected.size();
+    for (const Vec3& point : placed.points) {
+        placed.own_heights.push_back(point.z);
+    }
     const CrsTransform transform(placed.crs, target);
     placed.north_deg.assign(placed.points.size(), 0);
     if (transform.identity()) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/read/join_ids.hpp"
+#include "io/read/log_checks.hpp"
 #include "io/read/read_boreholes.hpp"
 #include "io/read/read_positions.hpp"
 #include "io/read/read_samples.hpp"
@@ -78,10 +80,17 @@ RawSurfaces read_surface_file(Source source, SurfaceKind kind, const SiteInputs&
     return raw;
 }
 
+PlaceOptions place_options(const SiteInputs& inputs) {
+    PlaceOptions options{inputs.z_positive, {}};
+    std::ranges::transform(inputs.nulls, std::back_inserter(options.nulls), parse_null);
+    return options;
+}
+
 Inputs read_inputs(const SiteInputs& inputs, Diagnostics& diagnostics, const Checkpoint& checkpoint) {
     Inputs read;
     const auto placed = [&](const Source& source) {
-        return place(read_noted(source, diagnostics), source, inputs.source_crs, inputs.columns, diagnostics);
+        return place(read_noted(source, diagnostics), source, inputs.source_crs, inputs.columns, diagnostics,
+                     place_options(inputs));
     };
     for (const Source& source : inputs.boreholes) {
         read.collars.push_back(placed(source));
@@ -140,15 +149,33 @@ std::vector<Vec3> surface_points(const RawSurfaces& raw) {
     return points;
 }
 
+/// The middle of the shortest arc that holds all longitudes: places on both sides of the antimeridian are near each
+/// other.
+double middle_longitude(std::vector<double> longitudes) {
+    std::ranges::sort(longitudes);
+    double widest = longitudes.front() + 360 - longitudes.back();
+    double first = longitudes.front();
+    for (std::size_t i = 1; i < longitudes.size(); ++i) {
+        if (longitudes[i] - longitudes[i - 1] > widest) {
+            widest = longitudes[i] - longitudes[i - 1];
+            first = longitudes[i];
+        }
+    }
+    const double middle = first + (360 - widest) / 2;
+    return middle >= 180 ? middle - 360 : middle;
+}
+
 /// The UTM zone of the middle of everything, all of which is in longitude and latitude.
 Crs utm_of_middle(const Inputs& read, Diagnostics& diagnostics) {
     const Crs wgs84 = parse_crs("EPSG:4326");
     Box3 extent;
+    std::vector<double> longitudes;
     const auto extend = [&](const Crs& crs, std::vector<Vec3> points) {
         CrsTransform(crs, wgs84).apply(points);
         for (const Vec3& point : points) {
             if (is_finite(point)) {
                 extent.extend(point);
+                longitudes.push_back(point.x);
             }
         }
     };
@@ -164,9 +191,13 @@ Crs utm_of_middle(const Inputs& read, Diagnostics& diagnostics) {
         throw InputError(
             "no place of the inputs can be given a longitude and latitude; name a projected system with -t_srs");
     }
-    const Crs zone = utm_zone(extent.center().x, extent.center().y);
-    diagnostics.note("all inputs are in longitude and latitude; the model is in " + zone.name +
-                     " (-t_srs chooses another)");
+    const double longitude = middle_longitude(longitudes);
+    const double latitude = extent.center().y;
+    const Crs zone = utm_zone(longitude, latitude);
+    diagnostics.note(fmt::format(
+        "all inputs are in longitude and latitude; the model is in {} (-t_srs chooses another); its middle "
+        "is at {:.4f}° {}, {:.4f}° {}",
+        zone.name, std::abs(longitude), longitude < 0 ? "W" : "E", std::abs(latitude), latitude < 0 ? "S" : "N"));
     return zone;
 }
 
@@ -342,12 +373,19 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
     const std::vector<Crs> collar_crs = unify(read, target, diagnostics);
     checkpoint.pass(0.7);
 
+    for (std::vector<Table>* const tables : {&read.surveys, &read.logs}) {
+        for (Table& table : *tables) {
+            join_ids(table, read.collars, inputs.columns, diagnostics);
+        }
+    }
     Holes holes = read_boreholes(read.collars, collar_crs, read.surveys, target, inputs, diagnostics);
     checkpoint.pass(0.8);
 
-    PropertyCatalogue catalogue(inputs.properties);
+    PropertyCatalogue catalogue(inputs.properties, inputs.nulls);
     std::vector<SampleRecord> records;
-    for (const Table& log : read.logs) {
+    for (Table& log : read.logs) {
+        accept_elevations(log, holes, inputs, diagnostics);
+        note_beyond_length(log, holes, inputs, diagnostics);
         read_log(log, holes, target, inputs, catalogue, records, diagnostics);
     }
     for (const PlacedTable& placed : read.samples) {

@@ -25,10 +25,10 @@
 #include <limits>
 #include <set>
 
+#include "io/base/rejections.hpp"
+#include "io/base/text_lines.hpp"
 #include "io/read/gocad_words.hpp"
 #include "io/read/read_surfaces.hpp"
-#include "io/read/rejections.hpp"
-#include "io/base/text_lines.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -13,6 +13,7 @@
 
 #include "io/base/lower_case.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/qualifiers.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -27,15 +28,6 @@ bool is_null_word(std::string_view text) {
                                                            "null", "(null)", "none", "-"};
     return std::ranges::find(words, lower_case(text)) != words.end();
 }
-
-/// Numbers that stand for "no value" in tables of the trade.
-bool is_placeholder(double value) {
-    static constexpr std::array<double, 6> placeholders{-999, -999.25, -9999, -9999.25, -99999, -999999};
-    return std::ranges::find(placeholders, value) != placeholders.end();
-}
-
-/// As low as a placeholder might be measured: a column that goes there means its -999.
-constexpr double plausible_low = -99;
 
 bool is_number(std::string_view text) {
     return parse_number(text) || parse_bound(text);
@@ -57,6 +49,31 @@ bool is_unnamed(const std::string& header) {
     const std::string name = lower_case(header);
     const bool generated = name.starts_with("unnamed: ") || name.starts_with("field");
     return generated && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
+}
+
+/// Whole numbers that number or count records: by the column's name, or since they count up from a great number.
+bool is_record_number(const std::string& header, const TextColumn& column) {
+    static constexpr std::array<std::string_view, 24> names{
+        "n",     "no",       "nr",       "num",      "number", "count",    "index", "idx",
+        "seq",   "objectid", "oid",      "fid",      "ogcfid", "gid",      "lab",   "labno",
+        "labnr", "labid",    "sampleno", "samplenr", "sampid", "sampleid", "batch", "batchno"};
+    const bool named = std::ranges::find(names, normal_header(header)) != names.end();
+    std::optional<double> last;
+    bool counts = true;
+    std::size_t count = 0;
+    for (const std::string_view text : column) {
+        const std::optional<double> value = parse_number(text);
+        if (!value) {
+            continue;
+        }
+        counts = counts && *value >= 1e5 && (!last || *value == *last + 1);
+        if (*value != std::trunc(*value) || (!named && !counts)) {
+            return false;
+        }
+        last = value;
+        ++count;
+    }
+    return named || (counts && count >= 5);
 }
 
 /// Has the column a meaning (position, depth, id), by name or by the user's word? Such columns are no properties unless
@@ -97,6 +114,13 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         const bool repeated = std::ranges::any_of(
             result, [&](const Choice& choice) { return lower_case(choice.property.name) == lower_case(name); });
         if (numbers == 0) {
+            continue;
+        }
+        if (is_record_number(name, table.cells[column])) {
+            diagnostics.note(
+                fmt::format("{}: column {} is left out: whole numbers under a name of records, not of a "
+                            "measurement; `properties` {} takes it",
+                            table.file, name, name));
             continue;
         }
         if (is_unnamed(name) || repeated) {
@@ -144,24 +168,24 @@ std::vector<Choice> wanted_columns(const Table& table, const std::vector<Propert
     return result;
 }
 
-/// Placeholders become missing where no measured value is as low.
-void drop_placeholders(std::vector<double>& values, const std::string& where, Diagnostics& diagnostics) {
-    std::map<double, std::size_t> counts;
-    bool measured_low = false;
-    for (const double value : values) {
-        if (is_placeholder(value)) {
-            ++counts[value];
-        } else if (value < plausible_low) {
-            measured_low = true;
+/// Usual codes become missing where they are far outside the other values; what else is off is told.
+void drop_codes(std::vector<double>& values, const Table& table, std::size_t column, Diagnostics& diagnostics) {
+    const std::string& name = table.columns[column];
+    for (const NullCode& found : null_codes(values)) {
+        diagnostics.note(fmt::format(
+            "column {}: {} cells of {} {} ({})", name, found.count, found.code,
+            found.far ? "are taken for no value"
+                      : fmt::format("are kept, for other values come near; `nulls` {}={} drops them", name, found.code),
+            table.file));
+        if (found.far) {
+            std::ranges::replace(values, found.code, missing);
         }
     }
-    for (const auto& [value, count] : counts) {
+    if (const auto off = off_scale(values)) {
         diagnostics.note(
-            fmt::format("{}: {} cells of {} {}", where, count, value,
-                        measured_low ? "are kept, for other values are as low" : "are taken for no value"));
-    }
-    if (!measured_low) {
-        std::ranges::replace_if(values, is_placeholder, missing);
+            fmt::format("column {}: {} values from {} on are a hundred times as large as all others (up to {}): in "
+                        "another unit, or a code? `nulls` {}=VALUE drops one ({})",
+                        name, off->count, off->least, off->others, name, table.file));
     }
 }
 
@@ -174,8 +198,12 @@ void drop_without_logarithm(std::vector<double>& values, const std::string& wher
     }
 }
 
-ValueColumn continuous_values(const Table& table, const Choice& choice, std::size_t index, Diagnostics& diagnostics) {
+ValueColumn continuous_values(const Table& table, const Choice& choice, int qualifier,
+                              const std::vector<NullValue>& nulls, std::size_t index, Diagnostics& diagnostics) {
     const std::string where = table.file + ": column " + table.columns[choice.column];
+    const std::array names{table.columns[choice.column], choice.property.name};
+    std::map<std::string, std::size_t> told;  // by nulls
+    std::size_t qualified = 0;
     ValueColumn result{index, {}};
     std::vector<Censoring> censored;
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -185,14 +213,22 @@ ValueColumn continuous_values(const Table& table, const Choice& choice, std::siz
         if (!value && (value = parse_bound(text))) {
             censored.back() = is_upper_bound(text) ? Censoring::below : Censoring::above;
         }
-        if (!value && !is_null_word(text)) {
+        if (!nulls.empty() && !text.empty() && says_null(nulls, names, text, value)) {
+            ++told[std::string(text)];
+            value.reset();
+            censored.back() = Censoring::none;
+        } else if (value && qualifier >= 0) {
+            const Censoring said = qualifier_of(table.cells[static_cast<std::size_t>(qualifier)][row]);
+            qualified += said != Censoring::none ? 1 : 0;
+            censored.back() = censored.back() | said;
+        } else if (!value && !is_null_word(text)) {
             diagnostics.reject(table.file, table.lines[row],
                                fmt::format("column {}: '{}' is not a number; the record's other values are used",
                                            table.columns[choice.column], text));
         }
         result.values.push_back(value.value_or(missing));
     }
-    drop_placeholders(result.values, where, diagnostics);
+    drop_codes(result.values, table, choice.column, diagnostics);
     if (choice.property.scale == Scale::log10) {
         drop_without_logarithm(result.values, where, diagnostics);
     }
@@ -201,8 +237,15 @@ ValueColumn continuous_values(const Table& table, const Choice& choice, std::siz
         censored[row] = std::isnan(result.values[row]) ? Censoring::none : censored[row];
         bounds += censored[row] != Censoring::none ? 1 : 0;
     }
+    for (const auto& [text, count] : told) {
+        diagnostics.note(fmt::format("column {}: {} cells of {} are no value, as `nulls` say ({})",
+                                     table.columns[choice.column], count, text, table.file));
+    }
     if (bounds > 0) {
-        diagnostics.note(fmt::format("{}: {} censored values (<, >) count as their bound", where, bounds));
+        const std::string by = qualified == 0 ? ""
+                                              : fmt::format(", {} of them by column {}", qualified,
+                                                            table.columns[static_cast<std::size_t>(qualifier)]);
+        diagnostics.note(fmt::format("{}: {} censored values (<, >) count as their bound{}", where, bounds, by));
         result.censored = std::move(censored);
     }
     return result;
@@ -231,7 +274,8 @@ std::vector<double> class_values(const Table& table, const Choice& choice, std::
 
 }  // namespace
 
-PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted) {
+PropertyCatalogue::PropertyCatalogue(const std::vector<std::string>& wanted, const std::vector<std::string>& nulls) {
+    std::ranges::transform(nulls, std::back_inserter(nulls_), parse_null);
     for (const std::string& text : wanted) {
         Property property = parse_property(to_utf8(text));
         if (std::ranges::any_of(
@@ -269,13 +313,15 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
     if (choices.empty()) {
         diagnostics.note(table.file + ": has none of the properties asked for and is not used");
     }
+    const std::vector<int> qualified_by = qualifiers(table, columns);
     std::vector<ValueColumn> result;
     for (const Choice& choice : choices) {
         const std::size_t index = index_of(choice.property);
         std::vector<std::string>& classes = properties_[index].classes;
-        result.push_back(choice.property.kind == Kind::categorical
-                             ? ValueColumn{index, class_values(table, choice, classes)}
-                             : continuous_values(table, choice, index, diagnostics));
+        result.push_back(
+            choice.property.kind == Kind::categorical
+                ? ValueColumn{index, class_values(table, choice, classes)}
+                : continuous_values(table, choice, qualified_by[choice.column], nulls_, index, diagnostics));
     }
     return result;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/read/read_table.hpp"
+#include "io/read/tables/null_codes.hpp"
 #include "tess/diagnostics.hpp"
 #include "tess/property.hpp"
 #include "tess/samples.hpp"
@@ -27,14 +28,16 @@ class PropertyCatalogue {
   public:
     /// \param wanted NAME[:log10][:categorical][:unit=U]; none: every numeric column. Throws UsageError for a name, in
     ///                any case, that comes twice.
-    explicit PropertyCatalogue(const std::vector<std::string>& wanted);
+    /// \param nulls  as SiteInputs::nulls
+    explicit PropertyCatalogue(const std::vector<std::string>& wanted, const std::vector<std::string>& nulls = {});
 
     /// Reads a table's property columns. Without `wanted` those are the columns that carry no known meaning and hold
     /// numbers in at least half of their non-empty cells (others with a number in them are noted). Empty cells, NA,
-    /// N/A, NaN, null, none and - are missing; -999, -999.25, -9999, … too where no other value is as low (noted);
-    /// "<0.005" counts as its bound, and is marked as censored (noted); any other text is rejected with line and
-    /// column, the record's other values are used. A table without any wanted property gives nothing (noted). Throws
-    /// InputError: no numeric column (lists those there are), or no number in a wanted one.
+    /// N/A, NaN, null, none and - are missing, and so are what `nulls` say and usual codes far outside the other values
+    /// (noted; io/read/tables/null_codes.hpp); "<0.005" counts as its bound, and is marked as censored (noted), as are
+    /// values that a column of signs beside them qualifies (io/read/qualifiers.hpp); any other text is rejected with
+    /// line and column, the record's other values are used. A table without any wanted property gives nothing (noted).
+    /// Throws InputError: no numeric column (lists those there are), or no number in a wanted one.
     std::vector<ValueColumn> read(const Table& table, const ColumnNames& columns, Diagnostics& diagnostics);
 
     [[nodiscard]] const std::vector<Property>& properties() const { return properties_; }
@@ -47,6 +50,7 @@ class PropertyCatalogue {
     std::size_t index_of(const Property& property);
 
     std::vector<Property> wanted_;
+    std::vector<NullValue> nulls_;
     std::vector<Property> properties_;
     std::vector<std::string> seen_columns_;  ///< for the message of what there is
 };

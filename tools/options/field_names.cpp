@@ -34,6 +34,7 @@ std::string option_name(std::string_view field) {
         {"v_min", "vmin"},
         {"v_max", "vmax"},
         {"logs", "log"},
+        {"nulls", "null"},
         {"surveys", "survey"},
         {"surfaces", "surface"},
         {"properties", "property"},

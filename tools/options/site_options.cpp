@@ -9,6 +9,7 @@
 #include "interp/plan/composite.hpp"
 #include "io/base/crs.hpp"
 #include "io/read/read_table.hpp"
+#include "io/read/tables/null_codes.hpp"
 #include "tess/error.hpp"
 #include "tess/property.hpp"
 #include "tools/options/choice.hpp"
@@ -57,6 +58,19 @@ double composite_length(const std::string& text, double metres_per_unit) {
     return length;
 }
 
+/// A length above 0, in whatever unit.
+void fault_depth(const std::string& text) {
+    double length = 0;
+    try {
+        length = parse_length(text, 1.0);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("--fault-depth: {}", error.what()));
+    }
+    if (!(length > 0)) {
+        throw UsageError(fmt::format("--fault-depth: '{}' is not above 0; give a depth, as in 12km", text));
+    }
+}
+
 void parse_azimuth(const std::string& text, SiteInputs& inputs) {
     if (const std::string magnetic = "magnetic:"; text.starts_with(magnetic)) {
         const auto declination = parse_number(text.substr(magnetic.size()));
@@ -99,7 +113,8 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               &a.properties},
              {{"columns"},
               "MEANING=COLUMN",
-              "a column not found by its name: id, x, y, z, from, to, depth, azimuth, dip, length, name",
+              "a column not found by its name: id, x, y, z, from, to, depth, azimuth, dip, length, name, qualifier "
+              "(of bounds), dip-direction and lower-depth (of traces)",
               &a.columns},
              {{"s_srs", "source-crs"}, "CRS", "of the inputs that carry none", &a.source_crs},
              {{"t_srs", "target-crs"}, "CRS", "of the model: the first projected one by default", &a.target_crs},
@@ -110,6 +125,23 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               &a.dip_convention},
              {{"azimuth"}, "FROM", "grid (default), true, or magnetic:DECLINATION", &a.azimuth},
              {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
+             {{"null"},
+              "[NAME=]VALUE",
+              "a number or word that stands for no value, in all columns or in one; usual codes far from all values "
+              "are kept out by themselves",
+              &a.nulls},
+             {{"z-positive"},
+              "WAY",
+              "auto (default: up, but down in columns called depth, TVD, TVDSS), up, down; of tables and of meshes "
+              "that "
+              "do not say it",
+              &a.z_positive},
+             {{"intervals"},
+              "WHAT",
+              "tops and bottoms of logs: auto (default: depths, but heights where they fall from the collars'), depth, "
+              "elevation",
+              &a.intervals},
+             {{"fault-depth"}, "LENGTH", "down to which, below zero, the faults of traces reach", &a.fault_depth},
              {{"z-scale"},
               "K",
               "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged; by default 1, "
@@ -189,6 +221,20 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
                                         {"down-positive", DipConvention::down_positive},
                                         {"down-negative", DipConvention::down_negative},
                                         {"inclination", DipConvention::inclination}});
+    inputs.z_positive =
+        choose<ZPositive>("--z-positive", a.z_positive,
+                          {{"auto", ZPositive::automatic}, {"up", ZPositive::up}, {"down", ZPositive::down}});
+    inputs.intervals = choose<Intervals>(
+        "--intervals", a.intervals,
+        {{"auto", Intervals::automatic}, {"depth", Intervals::depth}, {"elevation", Intervals::elevation}});
+    for (const auto& null : a.nulls) {
+        parse_null(null);
+    }
+    inputs.nulls = a.nulls;
+    if (!a.fault_depth.empty()) {
+        fault_depth(a.fault_depth);
+    }
+    inputs.fault_depth = a.fault_depth;
     parse_azimuth(a.azimuth, inputs);
     if (!a.depth_unit.empty()) {
         parse_length("1" + a.depth_unit, 1.0);

@@ -30,6 +30,10 @@ struct SiteArguments {
     std::string dip_convention = "auto";
     std::string azimuth = "grid";
     std::string depth_unit;
+    std::vector<std::string> nulls;
+    std::string z_positive = "auto";
+    std::string intervals = "auto";
+    std::string fault_depth;
     std::string composite;
     std::string z_scale;  ///< empty: chosen for flat data
     std::string layer;

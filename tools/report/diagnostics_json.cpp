@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/options/field_names.hpp"
+#include "tools/report/rejection_kinds.hpp"
 
 namespace terratet::tools {
 
@@ -16,6 +17,17 @@ Json rejected_json(const Diagnostics& diagnostics) {
         rejected.push_back({{"file", record.file}, {"line", record.line}, {"reason", with_options(record.reason)}});
     }
     return rejected;
+}
+
+Json rejected_by_reason_json(const Diagnostics& diagnostics) {
+    Json reasons = Json::array();
+    for (const auto& [first, count] : rejection_kinds(diagnostics.rejected)) {
+        reasons.push_back({{"file", first.file},
+                           {"count", count},
+                           {"first_line", first.line},
+                           {"first", with_options(first.reason)}});
+    }
+    return reasons;
 }
 
 Json notes_json(const Diagnostics& diagnostics) {

@@ -13,6 +13,9 @@ namespace terratet::tools {
 /// [{"file", "line", "reason"}].
 nlohmann::ordered_json rejected_json(const Diagnostics& diagnostics);
 
+/// Of each file and reason: how many, and the first.
+nlohmann::ordered_json rejected_by_reason_json(const Diagnostics& diagnostics);
+
 /// ["…"].
 nlohmann::ordered_json notes_json(const Diagnostics& diagnostics);
 

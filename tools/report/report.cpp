@@ -44,6 +44,7 @@ Json input_json(const BuildRecord& build, const Model& model) {
             {"faults", build.counts.faults},
             {"censored", censored_json(model)},
             {"rejected", rejected_json(build.diagnostics)},
+            {"rejected_by_reason", rejected_by_reason_json(build.diagnostics)},
             {"notes", notes_json(build.diagnostics)}};
 }
 

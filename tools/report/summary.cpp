@@ -5,6 +5,7 @@
 #include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
 #include "tools/options/text.hpp"
+#include "tools/report/rejection_kinds.hpp"
 #include "tools/report/report.hpp"
 
 namespace terratet::tools {
@@ -46,13 +47,17 @@ std::string input_lines(const BuildRecord& build) {
                                  counted(build.counts.samples, "sample"), counted(build.counts.faults, "fault")));
     constexpr std::size_t shown = 5;
     const auto& rejected = build.diagnostics.rejected;
+    const std::vector<RejectionKind> kinds = rejection_kinds(rejected);
     if (!rejected.empty()) {
-        out += line("Rejected", counted(rejected.size(), "record") + (rejected.size() > shown ? ", the first:" : ":"));
+        out +=
+            line("Rejected", fmt::format("{} for {}{}", counted(rejected.size(), "record"),
+                                         counted(kinds.size(), "reason"), kinds.size() > shown ? ", the first:" : ":"));
     }
-    for (std::size_t i = 0; i < std::min(shown, rejected.size()); ++i) {
-        const auto& record = rejected[i];
-        out += line("", record.line > 0 ? fmt::format("{}:{}: {}", record.file, record.line, record.reason)
-                                        : fmt::format("{}: {}", record.file, record.reason));
+    for (std::size_t i = 0; i < std::min(shown, kinds.size()); ++i) {
+        const auto& [record, count] = kinds[i];
+        const std::string text = record.line > 0 ? fmt::format("{}:{}: {}", record.file, record.line, record.reason)
+                                                 : fmt::format("{}: {}", record.file, record.reason);
+        out += line("", text + (count > 1 ? fmt::format("; and {} more likewise", grouped(count - 1)) : ""));
     }
     for (const auto& note : build.diagnostics.notes) {
         out += line("Note", note);

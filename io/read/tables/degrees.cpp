@@ -100,8 +100,8 @@ std::optional<Degrees> parse_degrees(std::string_view text) {
         parts.push_back(*part);
         const std::size_t before = text.size();
         signs = false;
-        while (!text.empty() && !(text == "s" && parts.size() < 3) && take_sign(text)) {
-            signs = true;
+        while (!text.empty() && !(text == "s" && (parts.size() < 3 || signs)) && take_sign(text)) {
+            signs = true;  // a lone s behind a blank is South
         }
         if (text.size() == before && !text.empty()) {
             signs = false;

@@ -4,7 +4,7 @@
 /// \file
 /// Places to ask a model about: any table with x, y, z, or points with heights.
 
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/diagnostics.hpp"
 #include "tess/frame.hpp"
 

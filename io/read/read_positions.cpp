@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/read/area_of_use.hpp"
+#include "io/read/tables/area_of_use.hpp"
 #include "io/read/tables/degrees.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"

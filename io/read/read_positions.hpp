@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/base/crs.hpp"
-#include "io/read/read_table.hpp"
 #include "io/read/tables/null_codes.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "io/site_inputs.hpp"
 #include "tess/diagnostics.hpp"
 

@@ -12,8 +12,8 @@
 #include "io/read/read_boreholes.hpp"
 #include "io/read/read_positions.hpp"
 #include "io/read/read_samples.hpp"
-#include "io/read/read_surfaces.hpp"
 #include "io/read/read_values.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 #include "tess/site/site_box.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "io/base/lower_case.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/qualifiers.hpp"
+#include "io/read/tables/qualifiers.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io/read/read_table.hpp"
 #include "io/read/tables/null_codes.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/diagnostics.hpp"
 #include "tess/property.hpp"
 #include "tess/samples.hpp"
@@ -35,9 +35,9 @@ class PropertyCatalogue {
     /// numbers in at least half of their non-empty cells (others with a number in them are noted). Empty cells, NA,
     /// N/A, NaN, null, none and - are missing, and so are what `nulls` say and usual codes far outside the other values
     /// (noted; io/read/tables/null_codes.hpp); "<0.005" counts as its bound, and is marked as censored (noted), as are
-    /// values that a column of signs beside them qualifies (io/read/qualifiers.hpp); any other text is rejected with
-    /// line and column, the record's other values are used. A table without any wanted property gives nothing (noted).
-    /// Throws InputError: no numeric column (lists those there are), or no number in a wanted one.
+    /// values that a column of signs beside them qualifies (io/read/tables/qualifiers.hpp); any other text is rejected
+    /// with line and column, the record's other values are used. A table without any wanted property gives nothing
+    /// (noted). Throws InputError: no numeric column (lists those there are), or no number in a wanted one.
     std::vector<ValueColumn> read(const Table& table, const ColumnNames& columns, Diagnostics& diagnostics);
 
     [[nodiscard]] const std::vector<Property>& properties() const { return properties_; }

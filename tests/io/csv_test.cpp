@@ -7,7 +7,7 @@
 #include "grid_model.hpp"
 #include "io/base/csv_text.hpp"
 #include "io/export.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "support.hpp"
 
 using namespace terratet;

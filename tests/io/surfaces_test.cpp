@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "io/base/gdal_scope.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

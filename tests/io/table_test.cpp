@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/read/read_table.hpp"
 #include "io/read/tables/csv_file.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/base/network.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "interp/estimator_spec.hpp"
 #include "io/base/memory_limit.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 #include "tools/options/choice.hpp"

@@ -8,7 +8,7 @@
 
 #include "interp/plan/composite.hpp"
 #include "io/base/crs.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "io/read/tables/null_codes.hpp"
 #include "tess/error.hpp"
 #include "tess/property.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "io/read_site.hpp"
 #include "tools/options/option.hpp"
 

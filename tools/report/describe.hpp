@@ -10,8 +10,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "io/model_store.hpp"
-#include "io/read/read_surfaces.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
+#include "io/read/tables/read_table.hpp"
 
 namespace terratet::tools {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/qualifiers.hpp"
+#include "io/read/tables/qualifiers.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/gdal_drivers.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/samples.hpp"
 
 namespace terratet {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "io/base/lower_case.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

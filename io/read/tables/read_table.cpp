@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>

@@ -11,8 +11,8 @@
 #include "io/base/library_failure.hpp"
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/polygon_surface.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/polygon_surface.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "io/base/crs.hpp"
-#include "io/read/read_table.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "io/source.hpp"
 #include "tess/diagnostics.hpp"
 #include "tess/surface.hpp"

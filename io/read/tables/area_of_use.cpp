@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/area_of_use.hpp"
+#include "io/read/tables/area_of_use.hpp"
 
 #include <fmt/format.h>
 

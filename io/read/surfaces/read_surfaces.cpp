@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 
 #include <ogrsf_frmts.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/gocad_words.hpp"
+#include "io/read/surfaces/gocad_words.hpp"
 
 #include <set>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/read/polygon_surface.hpp"
+#include "io/read/surfaces/polygon_surface.hpp"
 
 #include <algorithm>
 

@@ -9,8 +9,8 @@
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/polygon_surface.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/polygon_surface.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

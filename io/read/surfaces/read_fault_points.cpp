@@ -7,7 +7,7 @@
 
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

@@ -27,8 +27,8 @@
 
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/gocad_words.hpp"
-#include "io/read/read_surfaces.hpp"
+#include "io/read/surfaces/gocad_words.hpp"
+#include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

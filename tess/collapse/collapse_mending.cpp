@@ -26,8 +26,30 @@ std::vector<MendableMesh::Hold> holds(const CollapsedModel& collapsed) {
     return result;
 }
 
+/// Facets on faults whose two sides share all three nodes, as where these are on a rim: their cells' corners alone
+/// would not tell that they are there.
+std::vector<Triangle> shared_facets(const TetMesh& mesh) {
+    std::vector<Triangle> single;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (mesh.neighbours[c][k] < 0) {
+                single.push_back(ascending_facet(mesh.cells[c], k));
+            }
+        }
+    }
+    std::ranges::sort(single);
+    std::vector<Triangle> result;
+    for (std::size_t i = 0; i + 1 < single.size(); ++i) {
+        if (single[i] == single[i + 1]) {
+            result.push_back(single[i]);
+        }
+    }
+    return result;
+}
+
 MendableMesh cut_mesh(const CollapsedModel& collapsed) {
     MendableMesh result;
+    result.walls = shared_facets(collapsed.mesh);
     result.box = collapsed.model.domain.hull;
     result.least_edge = wanted_edge * collapsed.model.criteria.l_min;
     result.points = collapsed.mesh.points;
@@ -82,7 +104,8 @@ void gather(std::vector<T>& column, const std::vector<MendableMesh::Cell>& cells
     column = std::move(result);
 }
 
-void take_cells(const std::vector<MendableMesh::Cell>& cells, CollapsedModel& collapsed) {
+void take_cells(const std::vector<MendableMesh::Cell>& cells, const std::vector<Triangle>& walls,
+                CollapsedModel& collapsed) {
     CellTable& table = collapsed.cells;
     gather(table.region, cells);
     gather(table.barrier, cells);
@@ -106,14 +129,18 @@ void take_cells(const std::vector<MendableMesh::Cell>& cells, CollapsedModel& co
         table.dihedral_min_deg[c] = static_cast<float>(quality.dihedral_min_deg);
     }
     collapsed.mesh.neighbours = neighbours_of(collapsed.mesh.cells);
+    for (std::size_t c = 0; c < cells.size() && !walls.empty(); ++c) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (std::ranges::binary_search(walls, ascending_facet(cells[c].corners, k))) {
+                collapsed.mesh.neighbours[c][k] = -1;
+            }
+        }
+    }
 }
 
 }  // namespace
 
 void mend_collapsed(CollapsedModel& collapsed) {
-    if (collapsed.model.barrier_options.mode == SeedMode::exact) {
-        return;  // triangles between three points of a rim part cells that share their nodes, and would be lost
-    }
     MendableMesh mended = cut_mesh(collapsed);
     mend_cells(mended);
     std::erase_if(mended.cells, [](const MendableMesh::Cell& cell) { return MendableStars::gone(cell); });
@@ -125,7 +152,7 @@ void mend_collapsed(CollapsedModel& collapsed) {
         }
     }
     take_points(mended, near, collapsed);
-    take_cells(mended.cells, collapsed);
+    take_cells(mended.cells, mended.walls, collapsed);
 }
 
 }  // namespace terratet

@@ -8,7 +8,7 @@
 
 namespace terratet {
 
-/// Of paired faults; a mesh of exact ones stays as it is. Samples, seeds and the points of faults, ground and walls
+/// Samples, seeds and the points of faults, ground and walls
 /// stay where they are; other vertices may move, and then have the linear field's values and new ids, or vanish: nodes
 /// that no cell has are left behind. Cells beyond the ground or the outline and in gaps that are kept stay as they are.
 /// O(n log n).

@@ -3,7 +3,9 @@
 #include "tess/mending/mend_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "tess/mending/mending_steps.hpp"
@@ -14,7 +16,7 @@ namespace {
 constexpr double enough = 0.1;        ///< goodness: 18°
 constexpr double must_have = 0.0302;  ///< goodness: 10°; also cells that were not cut are mended below it
 constexpr double may_have = 0.0076;   ///< goodness: 5°; after points have met, before cells are mended
-constexpr int max_passes = 12;
+constexpr int max_passes = 8;
 
 struct Ranked {
     double by;
@@ -34,22 +36,25 @@ class Mender {
         const double least = stars_.mesh().least_edge * stars_.mesh().least_edge;
         stars_.let_edges_count(false);
         const std::size_t changed = sweep(
-            least, [&](const MendableMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
+            least, failed_shortening_,
+            [&](const MendableMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
             [&](std::uint32_t c) { return best_shortening(stars_, c, may_have); });
         stars_.let_edges_count(true);
         return changed;
     }
 
-    std::size_t improve() {
+    std::size_t improve(MendingAim aim) {
         return sweep(
-            enough, [&](const MendableMesh::Cell& cell) { return stars_.goodness(cell); },
-            [&](std::uint32_t c) { return best_change(stars_, c); });
+            enough, failed_improving_[aim == MendingAim::worst ? 0 : 1],
+            [&](const MendableMesh::Cell& cell) { return stars_.goodness(cell); },
+            [&](std::uint32_t c) { return best_change(stars_, c, aim); });
     }
 
   private:
-    /// Of the touched cells whose measure is below `least`, the worst first, each that is so still is changed.
+    /// Of the touched cells whose measure is below `least`, the worst first, each that is so still is changed, but for
+    /// those round which nothing is new since they could not be.
     template <class Measure, class Find>
-    std::size_t sweep(double least, const Measure& measure, const Find& find) {
+    std::size_t sweep(double least, std::vector<std::uint32_t>& failed, const Measure& measure, const Find& find) {
         std::vector<Ranked> bad;
         for (std::uint32_t c = 0; c < stars_.mesh().cells.size(); ++c) {
             const MendableMesh::Cell& cell = stars_.cell(c);
@@ -70,17 +75,28 @@ class Mender {
             if (MendableStars::gone(cell) || measure(cell) >= least) {
                 continue;
             }
+            failed.resize(stars_.mesh().cells.size(), never);
+            if (failed[bad[i].cell] != never && !stars_.changed_round(cell, failed[bad[i].cell])) {
+                continue;
+            }
             if (const std::optional<MendingStep> change = find(bad[i].cell)) {
+                failed[bad[i].cell] = never;
                 make(stars_, *change);
                 ++changed;
+            } else {
+                failed[bad[i].cell] = stars_.now();
             }
         }
         ++sweeps_;
         return changed;
     }
 
+    static constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
+
     MendableStars& stars_;
     const Progress& progress_;
+    std::vector<std::uint32_t> failed_shortening_;                ///< of cells: when, in the stars' changes
+    std::array<std::vector<std::uint32_t>, 2> failed_improving_;  ///< by aim
     int sweeps_ = 0;
 };
 
@@ -92,7 +108,12 @@ void mend_cells(MendableMesh& mesh, const Progress& progress) {
         cell.touched |= cell.judged && stars.goodness(cell) < must_have;
     }
     Mender mender(stars, progress);
-    for (int pass = 0; pass < max_passes && mender.shorten() + mender.improve() > 0; ++pass) {
+    std::size_t changed = 1;
+    for (int pass = 0; pass < max_passes && changed > 0; ++pass) {
+        changed = mender.shorten() + mender.improve(MendingAim::worst);
+        if (pass % 2 == 1 || changed == 0) {
+            changed += mender.improve(MendingAim::together);
+        }
     }
 }
 

@@ -44,6 +44,8 @@ MendableStars::MendableStars(MendableMesh& mesh)
     }
     on_kept_.assign(mesh.points.size(), -1);
     mesh.moved.assign(mesh.points.size(), 0);
+    std::ranges::sort(mesh.walls);
+    changed_.assign(mesh.points.size(), 0);
 }
 
 bool MendableStars::has(const MendableMesh::Cell& cell, std::uint32_t v) {
@@ -61,7 +63,14 @@ std::uint32_t MendableStars::beyond(std::uint32_t c, std::size_t k) const {
     return none;
 }
 
+bool MendableStars::is_wall(std::uint32_t c, std::size_t k) const {
+    return !mesh_.walls.empty() && std::ranges::binary_search(mesh_.walls, ascending_facet(cell(c).corners, k));
+}
+
 bool MendableStars::is_kept(std::uint32_t c, std::size_t k) const {
+    if (is_wall(c, k)) {
+        return true;
+    }
     const std::uint32_t other = beyond(c, k);
     if (other != none) {
         return cell(other).part != cell(c).part;
@@ -119,18 +128,14 @@ double MendableStars::shortest_edge(const MendableMesh::Cell& cell) const {
     return shortest;
 }
 
-double MendableStars::worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at,
-                                 double floor) const {
-    double worst = 1;
-    for (const std::uint32_t c : cells) {
-        std::array<Vec3, 4> points = points_of(cell(c));
-        points[static_cast<std::size_t>(std::ranges::find(cell(c).corners, v) - cell(c).corners.begin())] = at;
-        worst = std::min(worst, goodness(points, cell(c).judged));
-        if (worst <= floor) {
-            return -1;
-        }
-    }
-    return worst;
+double MendableStars::goodness_with(const MendableMesh::Cell& of, std::uint32_t v, const Vec3& at) const {
+    std::array<Vec3, 4> points = points_of(of);
+    points[static_cast<std::size_t>(std::ranges::find(of.corners, v) - of.corners.begin())] = at;
+    return goodness(points, of.judged);
+}
+
+bool MendableStars::changed_round(const MendableMesh::Cell& of, std::uint32_t since) const {
+    return std::ranges::any_of(of.corners, [&](std::uint32_t v) { return changed_[v] > since; });
 }
 
 double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
@@ -155,8 +160,10 @@ double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged) const 
 }
 
 void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const MendableMesh::Cell> fresh) {
+    ++now_;
     for (const std::uint32_t c : old) {
         for (const std::uint32_t v : cell(c).corners) {
+            changed_[v] = now_;
             std::erase(star_[v], c);
         }
         mesh_.cells[c].corners = {};
@@ -169,6 +176,7 @@ void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const Me
         mesh_.cells[c] = fresh[i];
         mesh_.cells[c].touched = true;
         for (const std::uint32_t v : fresh[i].corners) {
+            changed_[v] = now_;
             star_[v].push_back(c);
         }
     }
@@ -177,8 +185,12 @@ void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const Me
 void MendableStars::move(std::uint32_t v, const Vec3& to) {
     mesh_.points[v] = to;
     mesh_.moved[v] = 1;
+    ++now_;
     for (const std::uint32_t c : star_[v]) {
         mesh_.cells[c].touched = true;
+        for (const std::uint32_t corner : cell(c).corners) {
+            changed_[corner] = now_;
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 /// A mesh whose cells were cut, while it is being mended: its cells by their corners, what must stay, and how
 /// good a cell is.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -17,6 +18,13 @@
 namespace terratet {
 
 using Corners = std::array<std::uint32_t, 4>;
+
+/// The points of the facet opposite corner k, ascending.
+inline Triangle ascending_facet(const Corners& corners, std::size_t k) {
+    Triangle facet{corners[(k + 1) % 4], corners[(k + 2) % 4], corners[(k + 3) % 4]};
+    std::ranges::sort(facet);
+    return facet;
+}
 
 /// What is to be mended. Points of different numbers may be at one place: the nodes on both sides of a fault without
 /// width, whose facets have no cell beyond.
@@ -37,8 +45,9 @@ struct MendableMesh {
     std::vector<Hold> hold;   ///< of points
     std::vector<char> moved;  ///< of points: by mending
     std::vector<Cell> cells;
-    Box3 box;               ///< the mesh ends at its faces, or at surfaces that stay
-    double least_edge = 0;  ///< a cell with a shorter one is worse for it
+    std::vector<Triangle> walls;  ///< facets, their points ascending, that stay though cells of one part share them
+    Box3 box;                     ///< the mesh ends at its faces, or at surfaces that stay
+    double least_edge = 0;        ///< a cell with a shorter one is worse for it
 };
 
 /// A mesh with the cells at each point, and what follows from them.
@@ -63,7 +72,9 @@ class MendableStars {
     /// Faces of the box that a point is on, a bit each.
     [[nodiscard]] std::uint8_t faces(std::uint32_t v) const { return faces_[v]; }
 
-    /// Must the facet stay: between two parts, or where the mesh ends but not at the box?
+    /// Is the facet one of the mesh's walls?
+    [[nodiscard]] bool is_wall(std::uint32_t c, std::size_t k) const;
+    /// Must the facet stay: a wall, between two parts, or where the mesh ends but not at the box?
     [[nodiscard]] bool is_kept(std::uint32_t c, std::size_t k) const;
     /// Is the point on a facet that must stay?
     [[nodiscard]] bool on_kept(std::uint32_t v);
@@ -80,15 +91,32 @@ class MendableStars {
     /// Of a cell, squared.
     [[nodiscard]] double shortest_edge(const MendableMesh::Cell& cell) const;
 
-    /// Of the worst of these cells if v were elsewhere; −1 when it is `floor` or less.
-    [[nodiscard]] double worst_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at,
-                                    double floor) const;
+    /// Of these cells if v were elsewhere, as each cell's goodness is added to it; minus infinity when it falls to
+    /// `floor` or a cell would have no volume.
+    template <class Add>
+    [[nodiscard]] double score_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at, double score,
+                                    double floor, const Add& add) const {
+        for (const std::uint32_t c : cells) {
+            const double there = goodness_with(cell(c), v, at);
+            score = add(score, there);
+            if (!(there > 0 && score > floor)) {
+                return -std::numeric_limits<double>::infinity();
+            }
+        }
+        return score;
+    }
+
+    /// Counts the changes.
+    [[nodiscard]] std::uint32_t now() const { return now_; }
+    /// Was a cell at one of the cell's corners changed after that?
+    [[nodiscard]] bool changed_round(const MendableMesh::Cell& cell, std::uint32_t since) const;
 
     /// The cells `old` are gone, `fresh` are there instead.
     void apply(std::span<const std::uint32_t> old, std::span<const MendableMesh::Cell> fresh);
     void move(std::uint32_t v, const Vec3& to);
 
   private:
+    [[nodiscard]] double goodness_with(const MendableMesh::Cell& cell, std::uint32_t v, const Vec3& at) const;
     [[nodiscard]] double goodness(const std::array<Vec3, 4>& points, bool judged) const;
     [[nodiscard]] std::array<Vec3, 4> points_of(const MendableMesh::Cell& cell) const;
 
@@ -99,6 +127,8 @@ class MendableStars {
     std::vector<std::uint32_t> by_place_;  ///< points by place, then number
     std::vector<std::uint32_t> rank_;      ///< of a point in it
     std::vector<std::int8_t> on_kept_;     ///< −1: not known yet
+    std::vector<std::uint32_t> changed_;   ///< of points: when a cell there was last
+    std::uint32_t now_ = 0;
 };
 
 }  // namespace terratet

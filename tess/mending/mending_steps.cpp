@@ -13,20 +13,31 @@ namespace {
 
 using Cell = MendableMesh::Cell;
 
-constexpr double better = 1.05;      ///< goodness after a change over that before
+constexpr double better = 1.05;      ///< goodness of the worst cell after a change over that before
+constexpr double least_gain = 0.05;  ///< of all together, over the burden of the cell that the change is for
+constexpr double good = 0.1;         ///< goodness: 18°
+constexpr double sharpest = 1e-16;   ///< goodness
 constexpr std::size_t max_ring = 7;  ///< cells round an edge that is taken out
 constexpr double off_surface = 0.2;  ///< a kept facet moves no farther, over the least edge
 constexpr double turned = 0.7;       ///< cosine: nor does it turn farther
 constexpr double first_step = 0.3;   ///< of a moving point, over its star's mean edge
 constexpr double last_step = 0.02;
 
+/// What a bad cell weighs: about the cube of 18° over its angle.
+double burden(double goodness) {
+    const double times = good / std::max(goodness, sharpest);
+    return times > 1 ? times * std::sqrt(times) - 1 : 0;
+}
+
 /// Looks for the best change at one cell.
 class Search {
   public:
     Search(MendableStars& stars, std::uint32_t cell) : stars_(stars), cell_(cell) {}
 
-    std::optional<MendingStep> run() {
+    std::optional<MendingStep> run(MendingAim aim) {
         const Corners v = stars_.cell(cell_).corners;
+        aim_ = aim;
+        least_ = least_gain * burden(stars_.goodness(stars_.cell(cell_)));
         for (const auto& [i, j] : cell_edges) {
             contract(v[i], v[j]);
             contract(v[j], v[i]);
@@ -56,28 +67,45 @@ class Search {
     }
 
   private:
-    [[nodiscard]] double worst_of(const std::vector<std::uint32_t>& cells) const {
-        double worst = 1;
+    [[nodiscard]] double start() const { return aim_ == MendingAim::worst ? 1 : 0; }
+    [[nodiscard]] double add(double score, double goodness) const {
+        return aim_ == MendingAim::worst ? std::min(score, goodness) : score - burden(goodness);
+    }
+    [[nodiscard]] double score_of(const std::vector<std::uint32_t>& cells) const {
+        double score = start();
         for (const std::uint32_t c : cells) {
-            worst = std::min(worst, stars_.goodness(stars_.cell(c)));
+            score = add(score, stars_.goodness(stars_.cell(c)));
         }
-        return worst;
+        return score;
     }
 
-    /// Keeps the change if it is the best so far. Where all that is wanted is that points meet, no cell may get worse
-    /// than the worst, or than `enough_`; else the worst must get better.
+    /// The score that a change must exceed. Where all that is wanted is that points meet, no cell may get worse than
+    /// the worst, or than `enough_`.
+    [[nodiscard]] double floor(double before) const {
+        if (aim_ == MendingAim::together) {
+            return before + (best_ ? best_->by : least_);
+        }
+        const double least = shortening_ ? std::nextafter(std::min(before, enough_), -2.0) : better * before;
+        return best_ ? std::max(least, best_->by) : least;
+    }
+    [[nodiscard]] double ranked(double before, double after) const {
+        return aim_ == MendingAim::together ? after - before : after;
+    }
+
+    /// Keeps the change if it is the best so far.
     void offer(MendingStep change) {
-        const double before = worst_of(change.old);
-        double least = shortening_ ? std::nextafter(std::min(before, enough_), -2.0) : better * before;
-        least = best_ ? std::max(least, best_->worst) : least;
-        change.worst = 1;
+        const double before = score_of(change.old);
+        const double least = floor(before);
+        double after = start();
         for (const Cell& cell : change.fresh) {
-            change.worst = std::min(change.worst, stars_.goodness(cell));
-            if (change.worst <= least || change.worst < 0) {
+            const double there = stars_.goodness(cell);
+            after = add(after, there);
+            if (after <= least || there < 0 || (there == 0 && aim_ == MendingAim::together)) {
                 return;
             }
         }
         if (fits(change)) {
+            change.by = ranked(before, after);
             best_ = std::move(change);
         }
     }
@@ -181,13 +209,23 @@ class Search {
         offer(std::move(change));
     }
 
+    [[nodiscard]] bool has_wall_at(std::uint32_t c, std::uint32_t a, std::uint32_t b) const {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t opposite = stars_.cell(c).corners[k];
+            if (opposite != a && opposite != b && stars_.is_wall(c, k)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     /// Points round the edge from a to b in order, seen from b anticlockwise; on a face of the box from end to end.
     /// Empty where it has to stay.
     [[nodiscard]] std::vector<std::uint32_t> ring(std::uint32_t a, std::uint32_t b,
                                                   const std::vector<std::uint32_t>& cells) const {
         std::vector<std::array<std::uint32_t, 2>> links;
         for (const std::uint32_t c : cells) {
-            if (stars_.cell(c).part != stars_.cell(cells[0]).part) {
+            if (stars_.cell(c).part != stars_.cell(cells[0]).part || has_wall_at(c, a, b)) {
                 return {};
             }
             links.push_back(link_of(stars_.cell(c).corners, a, b));
@@ -264,7 +302,8 @@ class Search {
     void take_out_facet(std::size_t k) {
         const std::uint32_t other = stars_.beyond(cell_, k);
         const Corners& v = stars_.cell(cell_).corners;
-        if (other == MendableStars::none || stars_.cell(other).part != stars_.cell(cell_).part) {
+        if (other == MendableStars::none || stars_.cell(other).part != stars_.cell(cell_).part ||
+            stars_.is_wall(cell_, k)) {
             return;
         }
         const std::array<std::uint32_t, 3> facet{v[facet_corners[k][0]], v[facet_corners[k][1]],
@@ -285,7 +324,7 @@ class Search {
         if (stars_.mesh().hold[v] != MendableMesh::Hold::free || stars_.on_kept(v)) {
             return;
         }
-        const Vec3 start = stars_.point(v);
+        const Vec3 start_place = stars_.point(v);
         MendingStep change;
         change.old = stars_.star(v);
         Vec3 sum;
@@ -295,12 +334,12 @@ class Search {
             for (const std::uint32_t w : stars_.cell(c).corners) {
                 if (w != v) {
                     sum = sum + stars_.point(w);
-                    edges += distance(start, stars_.point(w));
+                    edges += distance(start_place, stars_.point(w));
                     ++count;
                 }
             }
         }
-        std::vector<Vec3> directions{sum / count - start};
+        std::vector<Vec3> directions{sum / count - start_place};
         for (int axis = 0; axis < 3; ++axis) {
             if ((stars_.faces(v) >> (2 * axis) & 3) != 0) {
                 directions[0][axis] = 0;
@@ -311,22 +350,25 @@ class Search {
             directions.push_back(along);
             directions.push_back(-along);
         }
-        const double before = worst_of(change.old);
-        double worst = before;
-        Vec3 at = start;
+        const double before = score_of(change.old);
+        double score = before;
+        Vec3 at = start_place;
         for (double step = first_step; step > last_step; step /= 2) {
             for (const Vec3& direction : directions) {
                 const Vec3 to = at + step * direction;
-                if (const double there = stars_.worst_with(change.old, v, to, worst); there > worst) {
-                    worst = there;
+                const double there =
+                    stars_.score_with(change.old, v, to, start(), score,
+                                      [this](double so_far, double goodness) { return add(so_far, goodness); });
+                if (there > score) {
+                    score = there;
                     at = to;
                 }
             }
         }
-        if (worst > better * before && worst > (best_ ? best_->worst : 0)) {
+        if (score > floor(before)) {
             change.mover = v;
             change.to = at;
-            change.worst = worst;
+            change.by = ranked(before, score);
             best_ = std::move(change);
         }
     }
@@ -334,14 +376,16 @@ class Search {
     MendableStars& stars_;
     std::uint32_t cell_;
     bool shortening_ = false;
+    MendingAim aim_ = MendingAim::worst;
     double enough_ = 1;
+    double least_ = 0;
     std::optional<MendingStep> best_;
 };
 
 }  // namespace
 
-std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell) {
-    return Search(stars, cell).run();
+std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell, MendingAim aim) {
+    return Search(stars, cell).run(aim);
 }
 
 std::optional<MendingStep> best_shortening(MendableStars& stars, std::uint32_t cell, double enough) {

@@ -16,12 +16,18 @@ struct MendingStep {
     std::vector<MendableMesh::Cell> fresh;
     std::uint32_t mover = MendableStars::none;
     Vec3 to;
-    double worst = 0;  ///< goodness of the worst cell after it
+    double by = 0;  ///< what it is chosen by: the higher the better
 };
 
-/// Of all that touch the cell the one that leaves the best worst cell; nothing where none makes the worst cell
-/// concerned better.
-std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell);
+/// What makes one change better than another.
+enum class MendingAim {
+    worst,     ///< the worst of the cells concerned is as good as can be,
+    together,  ///< or they are together, weighed so that the worst counts most: that one of them cannot be mended does
+               ///< not keep the others from it
+};
+
+/// The best of all that touch the cell; nothing where none makes the cells concerned better by a twentieth.
+std::optional<MendingStep> best_change(MendableStars& stars, std::uint32_t cell, MendingAim aim);
 
 /// The best way for one of the cell's short edges to vanish; nothing where each leaves a cell worse than the worst
 /// concerned and than `enough`.

@@ -136,7 +136,9 @@ TEST_CASE("F1: without the flakes that seal sharp wedges edges would cross there
     }
     REQUIRE(faults[0].seeds.size() < before);
     CHECK(testing::count_crossings(faults, hull, 3000, 1, 5).crossing > 3);
-    Seal seal = seal_sheets(faults, hull, {});
+    std::size_t asked_before = 0;
+    Seal seal = seal_sheets(faults, hull, {}, [&](double share) { asked_before += share == 0 ? 1 : 0; });
+    CHECK(asked_before > faults[0].seeds.size() / 512);  // getting ready can be stopped, too
     CHECK(seal.open.empty());
     CHECK(seal.seeds[0].size() > faults[0].seeds.size());
     faults[0].seeds = seal.seeds[0];

@@ -116,7 +116,7 @@ std::vector<SheetPlane> LeakSheets::planes_about(std::uint32_t owner, const Vec3
     return planes;
 }
 
-LeakProbes LeakSheets::probes(const ProtectionZone& zone, const Box3& hull) const {
+LeakProbes LeakSheets::probes(const ProtectionZone& zone, const Box3& hull, const Poll& poll) const {
     std::vector<LeakProbe> placed;
     SeedGrid places({}, close_probes * widest_protection_);
     const auto place = [&](const Vec3& over, const Vec3& out, std::uint32_t f) {
@@ -150,6 +150,9 @@ LeakProbes LeakSheets::probes(const ProtectionZone& zone, const Box3& hull) cons
         }
     };
     for (std::uint32_t t = 0; t < grid_.size(); ++t) {
+        if (t % 64 == 0) {
+            ask(poll);
+        }
         const double longest = wide * barriers_[barrier_of_[t]].protection_radius;
         for (const TriangleCorners& part : parts_of(grid_.triangle(t), longest)) {
             place_over(part, t);

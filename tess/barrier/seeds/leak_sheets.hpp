@@ -11,6 +11,7 @@
 #include "tess/barrier/query/protection_zone.hpp"
 #include "tess/barrier/seeds/leak_probes.hpp"
 #include "tess/barrier_query.hpp"
+#include "tess/base/poll.hpp"
 #include "tess/base/triangle_grid.hpp"
 
 namespace terratet {
@@ -45,7 +46,7 @@ class LeakSheets {
     [[nodiscard]] std::vector<SheetPlane> planes_about(std::uint32_t owner, const Vec3& base, const Vec3& normal) const;
 
     /// Places where seeds' planes may not tell; of those that stand close together over one sheet, one.
-    [[nodiscard]] LeakProbes probes(const ProtectionZone& zone, const Box3& hull) const;
+    [[nodiscard]] LeakProbes probes(const ProtectionZone& zone, const Box3& hull, const Poll& poll) const;
 
     [[nodiscard]] bool crosses(std::uint32_t barrier, const Vec3& a, const Vec3& b) const;
 

@@ -13,6 +13,7 @@
 #include "tess/barrier_query.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/tri_mesh.hpp"
+#include "tess/mesh/bulk_insertion.hpp"
 #include "tess/mesh/delaunay.hpp"
 
 namespace terratet {
@@ -61,17 +62,19 @@ struct LeakFinder::Impl {
     std::vector<Cell> found;  ///< by number of the leak, in the last find()
     std::vector<Edge> leaking_edges;
 
-    Impl(std::span<const Barrier> given, const Box3& box)
+    Impl(std::span<const Barrier> given, const Box3& box, const Poll& poll)
         : barriers(given),
           hull(box),
           sheets(given),
           zone(given),
           protected_balls({}, sheets.widest_protection()),
           probe_reach(2 * sheets.widest_protection()) {
-        probes = sheets.probes(zone, hull);
+        PatientPoll go_on(poll);
+        probes = sheets.probes(zone, hull, poll);
         std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
         for (std::uint32_t f = 0; f < barriers.size(); ++f) {
             for (std::size_t k = 0; k + 1 < barriers[f].seeds.size(); k += 2) {
+                go_on();
                 add_sites(f, barriers[f].seeds[k].position, barriers[f].seeds[k + 1].position);
             }
         }
@@ -83,7 +86,7 @@ struct LeakFinder::Impl {
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
             points.emplace_back(to_cgal(sites[i].position), i);
         }
-        tessellation.insert(points.begin(), points.end());
+        delaunay::insert(tessellation, points, go_on);
         vertices.resize(sites.size());
         for (const auto vertex : tessellation.finite_vertex_handles()) {
             vertices[vertex->info()] = vertex;
@@ -379,8 +382,8 @@ struct LeakFinder::Impl {
     }
 };
 
-LeakFinder::LeakFinder(std::span<const Barrier> barriers, const Box3& hull)
-    : impl_(std::make_unique<Impl>(barriers, hull)) {}
+LeakFinder::LeakFinder(std::span<const Barrier> barriers, const Box3& hull, const Poll& poll)
+    : impl_(std::make_unique<Impl>(barriers, hull, poll)) {}
 LeakFinder::~LeakFinder() = default;
 
 std::vector<Leak> LeakFinder::find(const std::function<void(double)>& progress) {

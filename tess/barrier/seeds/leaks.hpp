@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "tess/barrier.hpp"
+#include "tess/base/poll.hpp"
 
 namespace terratet {
 
@@ -49,8 +50,8 @@ class LeakFinder {
         bool present = true;
     };
 
-    /// \pre The faults outlive this.
-    LeakFinder(std::span<const Barrier> barriers, const Box3& hull);
+    /// Asks the poll on the way. \pre The faults outlive this.
+    LeakFinder(std::span<const Barrier> barriers, const Box3& hull, const Poll& poll = {});
     ~LeakFinder();
     LeakFinder(const LeakFinder&) = delete;
     LeakFinder& operator=(const LeakFinder&) = delete;

@@ -23,7 +23,9 @@ class Sealer {
   public:
     Sealer(std::span<const Barrier> barriers, const Box3& hull, const Frame& frame,
            const std::function<void(double)>& progress)
-        : barriers_(barriers), hull_(hull), frame_(frame), progress_(progress), finder_(barriers, hull) {
+        : barriers_(barriers), hull_(hull), frame_(frame), progress_(progress), finder_(barriers, hull, [this] {
+              report(0, 0);
+          }) {
         seal_.flakes.resize(barriers.size());
     }
 

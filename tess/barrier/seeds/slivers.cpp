@@ -14,6 +14,7 @@
 
 #include "tess/base/random_share.hpp"
 #include "tess/base/tri_mesh.hpp"
+#include "tess/mesh/bulk_insertion.hpp"
 #include "tess/mesh/quality.hpp"
 
 namespace terratet {
@@ -45,7 +46,8 @@ class Mender {
             points.emplace_back(to_cgal(pairs[k].plus), 2 * k);
             points.emplace_back(to_cgal(pairs[k].minus), 2 * k + 1);
         }
-        tessellation_.insert(points.begin(), points.end());
+        PatientPoll go_on(poll);
+        delaunay::insert(tessellation_, points, go_on);
         vertices_.resize(points.size());
         for (const auto vertex : tessellation_.finite_vertex_handles()) {
             vertices_[vertex->info()] = vertex;
@@ -114,7 +116,9 @@ class Mender {
 
     [[nodiscard]] std::set<Corners> all_slivers() const {
         std::set<Corners> slivers;
+        PatientPoll go_on(poll_);
         for (const auto cell : tessellation_.finite_cell_handles()) {
+            go_on();
             if (Corners v{}; is_sliver(cell, v)) {
                 slivers.insert(v);
             }

@@ -11,17 +11,12 @@
 #include "tess/barrier/complex/margin_row.hpp"
 #include "tess/barrier/complex/measure_sheet.hpp"
 #include "tess/barrier/complex/places_near.hpp"
-#include "tess/barrier/complex/round_off.hpp"
-#include "tess/barrier/prepare/crowding.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-constexpr double unseparated = 0.05;   ///< share of a fault that may stay so in paired mode
 constexpr double row_clearance = 0.6;  ///< in edge lengths: a margin row keeps that far from other surfaces
-constexpr int halvings = 3;            ///< of the spacing, where the sides could not be separated
-constexpr int exact_halvings = 1;      ///< against leaks in exact mode: triangles of unequal size are hard to certify
 
 bool crosses_itself(const TriMesh& mesh) {
     const SheetComplex alone{mesh.points, mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)};
@@ -128,93 +123,6 @@ void BarrierPreparer::extend(std::uint32_t number) {
     }
 }
 
-std::optional<BarrierPreparer::Pass> BarrierPreparer::attempt() {
-    std::vector<char> active;
-    std::vector<char> walls;
-    for (const Candidate& candidate : candidates_) {
-        active.push_back(candidate.active ? 1 : 0);
-        walls.push_back(candidate.surface->kind == SurfaceKind::domain ? 1 : 0);
-    }
-    mesher_->keep(active);
-    ++attempts_;
-    const SizeField& sizes = mesher_->sizes();
-    Pass pass;
-    pass.trimmed = cut_.trimmed;
-    const bool paired = options_.mode == SeedMode::paired;
-    std::size_t crossings_before = std::numeric_limits<std::size_t>::max();
-    for (int halving = 0;; ++halving) {
-        const double meshed_share = 1 - 1 / (1 + 0.2 * passes_++);
-        SheetRemesher::Result meshed = mesher_->mesh(told("meshing faults", meshed_share));
-        const auto& crossings = meshed.crossings;
-        pass.complex = std::move(meshed.complex);
-        const bool last = halving == halvings || mesher_->overgrown() || hurries();
-        if (!crossings.empty()) {
-            const bool helps = 2 * crossings.size() <= crossings_before;
-            crossings_before = crossings.size();
-            if (last || !helps || !mesher_->refine(crossing_places(pass.complex, crossings), halvings)) {
-                refuse_crossing(pass.complex, crossings);
-                return {};
-            }
-            continue;
-        }
-        if (paired) {
-            SheetComplex rounded = pass.complex;
-            std::vector<FinerPlace> bends;
-            for (const Vec3& p : round_bends(rounded, sizes)) {
-                bends.push_back({p, {}});
-            }
-            if (!last && mesher_->refine(bends, halvings)) {
-                continue;
-            }
-            if (crossing_triangles(rounded).empty()) {
-                pass.complex = std::move(rounded);
-            }
-        }
-        halve_corners(pass.complex, walls);
-        for (Vec3& p : pass.complex.points) {
-            p = frame_.snapped(p);
-        }
-        const Poll seeding = told("seeding faults", 1 - 1 / (1 + 0.2 * passes_));
-        seed(pass, sizes, seeding);
-        if (!last && mesher_->refine(crowded_places(pass.complex, pass.seeded.seeds, sizes, walls, seeding),
-                                     paired ? halvings : exact_halvings)) {
-            continue;
-        }
-        if (!paired) {
-            return pass;
-        }
-        const std::vector<char> inner = inner_triangles(pass.complex, EdgeTable(pass.complex.triangles));
-        std::vector<FinerPlace> places;
-        std::vector<double> bad(candidates_.size(), 0);
-        std::vector<Vec3> where(candidates_.size());
-        for (std::uint32_t t = 0; t < inner.size(); ++t) {
-            if (inner[t] != 0 && pass.seeded.separated[t] == 0) {
-                const TriangleCorners c = corners(pass.complex, t);
-                places.push_back(place_of(pass.complex, t));
-                bad[pass.complex.sheet[t]] += length(area_vector(c));
-                where[pass.complex.sheet[t]] = places.back().position;
-            }
-        }
-        if (!last && mesher_->refine(places, halvings)) {
-            continue;
-        }
-        bool refused = false;
-        for (std::size_t k = 0; k < bad.size(); ++k) {
-            if (bad[k] > unseparated * candidates_[k].area_inside) {
-                refuse(candidates_[k],
-                       "bends too sharply at " + text_of(where[k]) +
-                           ": mirrored seeds cannot tell its sides apart there; use a finer `barriers.spacing`" +
-                           (is_bound(candidates_[k].surface->kind) ? "" : " or the exact fault mode"));
-                refused = true;
-            }
-        }
-        if (refused) {
-            return {};
-        }
-        return pass;
-    }
-}
-
 /// Once for all attempts: what is refused later leaves no more than points on the others.
 void BarrierPreparer::cut() {
     do {
@@ -274,19 +182,6 @@ bool BarrierPreparer::refuse_failed(const std::vector<std::pair<std::uint32_t, s
         any = true;
     }
     return any;
-}
-
-bool BarrierPreparer::refuse_crossing(const SheetComplex& complex,
-                                      const std::vector<std::array<std::uint32_t, 2>>& crossings) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (const auto& [s, t] : crossings) {
-        const auto [a, b] = std::minmax(complex.sheet[s], complex.sheet[t]);
-        pairs.emplace_back(a, b);
-    }
-    std::ranges::sort(pairs);
-    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-    return refuse_failed(pairs,
-                         "is too rough for the spacing, or meets it at too small an angle: remeshed it still crosses ");
 }
 
 void BarrierPreparer::seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend) const {

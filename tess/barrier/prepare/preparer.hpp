@@ -94,12 +94,19 @@ class BarrierPreparer {
 
     /// Nothing when surfaces were refused and the rest is to be tried again.
     std::optional<Pass> attempt();
+    /// What a check of an attempt finds: all is well, the mesher was told where triangles have to be finer, or surfaces
+    /// were refused. At the last halving it asks for nothing finer.
+    enum class Finding { good, finer, refused };
+    Finding check_crossings(const Pass& pass, const std::vector<std::array<std::uint32_t, 2>>& crossings, bool last);
+    Finding check_bends(Pass& pass, bool last);
+    void place_seeds(Pass& pass, const std::vector<char>& walls) const;
+    Finding check_crowding(const Pass& pass, const std::vector<char>& walls, bool last);
+    Finding check_separation(const Pass& pass, bool last);
     /// Enough was tried: from now on triangles stay as large as they are, and of two surfaces that do not get along
     /// both go, so that it ends soon. What is tried is counted, not timed: the same surfaces give the same faults.
     [[nodiscard]] bool hurries() const { return attempts_ > patience; }
     void cut();
     bool refuse_failed(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, const std::string& what);
-    bool refuse_crossing(const SheetComplex& complex, const std::vector<std::array<std::uint32_t, 2>>& crossings);
     void seed(Pass& pass, const SizeField& sizes, const Poll& poll, bool mend = false) const;
     /// \pre The stage's name outlives what is returned.
     [[nodiscard]] Poll told(std::string_view stage, double fraction) const;

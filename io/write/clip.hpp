@@ -15,7 +15,7 @@
 namespace terratet {
 
 enum class ClippedCells {
-    as_cut,  ///< where shapes do not matter: volumes, surfaces
+    as_cut,  ///< where shapes do not matter: volumes
     mended,
 };
 

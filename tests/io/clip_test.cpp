@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write/clip.hpp"
+#include "io/write/scene/scene_cells.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -258,4 +259,11 @@ TEST_CASE("A clipped mesh mixes no values across a fault that passes beyond the 
     for (const double value : mesh.values(lattice.model, 0)) {
         REQUIRE(value == 1);
     }
+}
+
+TEST_CASE("A scene is drawn from the cells that a clipped file has, none of them sharp") {
+    const LatticeModel lattice({{10.4, 20.4, 10.2}, {89.6, 79.9, 89.6}});
+    const SceneCells scene = scene_cells(lattice.view());
+    CHECK(scene.mesh.cells == clip_to_extent(lattice.view()).cells);
+    CHECK(clipped_shapes(lattice.view(), scene.mesh).below_10_deg == 0);
 }

@@ -33,7 +33,7 @@ Scene make_scene(const ModelView& view, const ExportOptions& options) {
     const Model& model = view.model;
     Scene scene{SceneFrame(model, options.enu ? SceneFrame::Axes::enu : SceneFrame::Axes::grid),
                 Coloring(view, options.color_property, options.color_map),
-                scene_cells(view),
+                scene_cells(view, options.progress),
                 {},
                 {}};
     report_progress(options.progress, "write scene", 0.2);

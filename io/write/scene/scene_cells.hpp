@@ -27,7 +27,8 @@ struct SceneCells {
     [[nodiscard]] double volume(std::size_t cell) const;  ///< in the cube of the model's unit
 };
 
-SceneCells scene_cells(const ModelView& view);
+/// The cells that a clipped VTU has.
+SceneCells scene_cells(const ModelView& view, const Progress& progress = {});
 
 /// A place in a cell, by barycentric weights of up to four of the mesh's points.
 struct CellPlace {

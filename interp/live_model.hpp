@@ -12,6 +12,7 @@
 
 #include "interp/model_snapshot.hpp"
 #include "tess/build.hpp"
+#include "tess/change_model.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
@@ -25,6 +26,8 @@ class LiveModel {
     /// neighbour; the model keeps it as it was fitted.
     explicit LiveModel(Site site, const BuildOptions& options = {}, const Progress& progress = {});
     LiveModel(Site site, const BuildOptions& options, BuildReport& report, const Progress& progress = {});
+    /// From a state of another one on: what is edited here leaves the other as it is.
+    explicit LiveModel(const std::shared_ptr<const ModelSnapshot>& state);
     ~LiveModel();
     LiveModel(LiveModel&&) noexcept;
     LiveModel& operator=(LiveModel&&) noexcept;
@@ -48,7 +51,13 @@ class LiveModel {
     /// (interp/plan/uncertainty.hpp), and the model keeps how far errors go.
     void add_uncertainty();
 
-    /// Takes a surface of that name out and builds again with all else as it was. Throws UsageError when there is none.
+    /// Brings the model to what the plan says: by a local change where that can do it (tess/change_model.hpp), else by
+    /// building it again with its own options. The estimator stays as it was fitted. Properties that hold uncertainty
+    /// are brought up to date. Snapshots that somebody holds stay as they are. Nothing has changed when it throws: as
+    /// change_model and build do.
+    ChangeReport edit(ModelPlan plan, const Progress& progress = {}, const RefineOptions& refine = {});
+
+    /// Takes a fault or horizon of that name out. Throws UsageError when there is none.
     void remove_surface(const std::string& name, const Progress& progress = {});
 
   private:

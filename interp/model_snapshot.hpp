@@ -23,8 +23,10 @@ class ModelSnapshot {
     /// As it was stored. Throws UsageError when it names an estimator that there is not.
     explicit ModelSnapshot(Model model);
 
-    /// As it was built, with what the build made; `estimator` is of that model and its barriers.
-    ModelSnapshot(std::unique_ptr<TessellatedModel> built, std::shared_ptr<const ModelEstimator> estimator);
+    /// As it was built or changed, with what that made; without `complete`, mesh and cells are made when they are asked
+    /// for. `estimator` is of that model and its barriers; null: by the model's plan, when it is asked for.
+    ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
+                  bool complete = true);
     ~ModelSnapshot();
     ModelSnapshot(const ModelSnapshot&) = delete;
     ModelSnapshot& operator=(const ModelSnapshot&) = delete;
@@ -52,6 +54,9 @@ class ModelSnapshot {
     /// Gives up what only queries and edits want again, for the writers to come: tessellation and estimators. Whoever
     /// asks has them made anew. \pre Nobody holds a reference to them.
     void release_memory() const;
+
+    /// Gives the tessellation away, to be changed into the next state's; whoever asks here has it made anew.
+    [[nodiscard]] Tessellation take_tessellation() const;
 
     /// What the estimator knows about its values becomes further properties of the vertices
     /// (interp/plan/uncertainty.hpp). \pre Nobody else has the snapshot yet.

@@ -27,6 +27,10 @@ struct Verdict {
 /// Takes as long as the build did: R6, which is a build, has four fifths of it (63,800 vertices, natural neighbour),
 /// R5's empty spheres 5 %, R7 and R3 2 to 3 % each, all others together 2 %, and what they share, tessellation, cell
 /// table and estimator, the rest.
-std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory = {}, const Progress& progress = {});
+///
+/// `edited`: the model was changed since it was built (change_model.hpp). D3 and R6 then are not asked, as they speak
+/// of building, and R7 is asked of insertion alone.
+std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory = {}, const Progress& progress = {},
+                            bool edited = false);
 
 }  // namespace terratet

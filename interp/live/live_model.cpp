@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tess/error.hpp"
+#include "tess/site_edits.hpp"
 
 namespace terratet {
 namespace {
@@ -27,9 +28,55 @@ std::shared_ptr<ModelSnapshot> built(Site site, const BuildOptions& options, Bui
     return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator));
 }
 
+/// Some property was derived from another, for the vertices alone (interp/plan/uncertainty.hpp).
+bool has_uncertainty(const Model& model) {
+    return std::ranges::any_of(model.properties, [&](const Property& property) {
+        return std::ranges::find(model.properties, property.name + "_extrapolation", &Property::name) !=
+               model.properties.end();
+    });
+}
+
+std::shared_ptr<ModelSnapshot> changed(const std::shared_ptr<const ModelSnapshot>& before, ModelPlan plan,
+                                       ChangeReport& report, const Progress& progress, const RefineOptions& refine) {
+    std::shared_ptr<const ModelEstimator> estimator;
+    const auto factory = [&](const Model& model, const BarrierQuery& barriers, bool same_values) -> ValueSource {
+        if (same_values) {
+            return [before](std::span<const ValueQuery> queries) { return before->estimator().values(queries); };
+        }
+        const EstimatorPlan fitted = parse_estimator_plan(model.estimator);
+        estimator = std::make_shared<const ModelEstimator>(model, barriers, fitted);
+        return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
+    };
+    auto made =
+        change_model(before->model(), before->take_tessellation(), std::move(plan), factory, report, progress, refine);
+    return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator), false);
+}
+
+/// With the options it was built with, but for what the plan says.
+std::shared_ptr<ModelSnapshot> built_again(const Model& before, ModelPlan plan, ChangeReport& report,
+                                           const Progress& progress, const RefineOptions& refine) {
+    BuildOptions options = options_of(before);
+    options.criteria = std::move(plan.criteria);
+    options.density = plan.density;
+    options.barriers = plan.barriers;
+    options.region_names = std::move(plan.region_names);
+    options.estimator = std::move(plan.estimator);
+    options.refine = refine;
+    BuildReport built_report;
+    auto next = built(std::move(plan.site), options, built_report, progress);
+    report.coincident = built_report.coincident;
+    report.outside_extent = built_report.outside_extent;
+    report.samples_in = built_report.density.kept.size();
+    report.seeds_in = built_report.seeds;
+    report.refine = built_report.refine;
+    report.barriers = std::move(built_report.barriers);
+    return next;
+}
+
 }  // namespace
 
 struct LiveModel::Impl {
+    std::mutex writing;  ///< one edit at a time
     std::shared_ptr<ModelSnapshot> newest;
     mutable std::mutex mutex;  ///< of the pointer
 };
@@ -47,6 +94,10 @@ LiveModel::LiveModel(Site site, const BuildOptions& options, const Progress& pro
     : impl_(std::make_unique<Impl>()) {
     BuildReport report;
     impl_->newest = built(std::move(site), options, report, progress);
+}
+
+LiveModel::LiveModel(const std::shared_ptr<const ModelSnapshot>& state) : impl_(std::make_unique<Impl>()) {
+    impl_->newest = std::const_pointer_cast<ModelSnapshot>(state);  // changed only where nobody else has it
 }
 
 LiveModel::~LiveModel() = default;
@@ -75,16 +126,29 @@ void LiveModel::add_uncertainty() {
     impl_->newest->add_uncertainty();
 }
 
-void LiveModel::remove_surface(const std::string& name, const Progress& progress) {
+ChangeReport LiveModel::edit(ModelPlan plan, const Progress& progress, const RefineOptions& refine) {
+    const std::lock_guard one_at_a_time(impl_->writing);
     const auto before = snapshot();
-    Site site = before->model();
-    if (std::erase_if(site.surfaces, [&](const Surface& surface) { return surface.name == name; }) == 0) {
-        throw UsageError("there is no surface '" + name + "'");
+    const bool uncertain = has_uncertainty(before->model());
+    ChangeReport report;
+    std::shared_ptr<ModelSnapshot> next;
+    if (is_local_change(before->model(), plan)) {
+        next = changed(before, std::move(plan), report, progress, refine);
+    } else {
+        next = built_again(before->model(), std::move(plan), report, progress, refine);
     }
-    BuildReport report;
-    auto next = built(std::move(site), options_of(before->model()), report, progress);
+    if (uncertain) {
+        next->add_uncertainty();
+    }
     const std::lock_guard lock(impl_->mutex);
     impl_->newest = std::move(next);
+    return report;
+}
+
+void LiveModel::remove_surface(const std::string& name, const Progress& progress) {
+    ModelPlan plan = plan_of(model());
+    terratet::remove_surface(plan.site, name);
+    edit(std::move(plan), progress);
 }
 
 }  // namespace terratet

@@ -53,7 +53,9 @@ struct ModelSnapshot::Impl {
 
     const TessellatedModel& tessellation() {
         if (!tessellated) {
-            made->tessellation = tessellate(made->model);
+            if (!made->tessellation) {
+                made->tessellation = tessellate(made->model);
+            }
             made->mesh = made->tessellation->mesh();
             tessellated = true;
         }
@@ -84,16 +86,27 @@ ModelSnapshot::ModelSnapshot(Model model) : impl_(std::make_unique<Impl>()) {
     impl_->made->model = std::move(model);
 }
 
-ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> built, std::shared_ptr<const ModelEstimator> estimator)
+ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
+                             bool complete)
     : impl_(std::make_unique<Impl>()) {
-    impl_->plan = estimator->plan();
-    impl_->made = std::move(built);
+    impl_->plan = estimator ? estimator->plan() : parse_estimator_plan(made->model.estimator);
+    impl_->made = std::move(made);
     impl_->estimator = std::move(estimator);
-    impl_->tessellated = true;
-    impl_->described = true;
+    impl_->tessellated = complete;
+    impl_->described = complete;
 }
 
 ModelSnapshot::~ModelSnapshot() = default;
+
+Tessellation ModelSnapshot::take_tessellation() const {
+    const std::lock_guard lock(impl_->mutex);
+    if (!impl_->made->tessellation) {
+        return tessellate(impl_->made->model);
+    }
+    Tessellation taken = std::move(*impl_->made->tessellation);
+    impl_->made->tessellation.reset();
+    return taken;
+}
 
 void ModelSnapshot::release_memory() const {
     const std::lock_guard lock(impl_->mutex);

@@ -3,72 +3,12 @@
 #include "tess/edit/barrier_edit.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <set>
 
 #include "tess/mesh/delaunay.hpp"
 
 namespace terratet {
 namespace {
-
-/// Row i of the values, appended to others.
-void append_row(const VertexValues& from, std::size_t i, VertexValues& to) {
-    to.values.resize(from.values.size());
-    for (std::size_t property = 0; property < from.values.size(); ++property) {
-        to.values[property].push_back(from.values[property][i]);
-    }
-    to.extrapolation.push_back(from.extrapolation[i]);
-}
-
-/// Takes out the vertices with the given ids and puts in others; both ascend. Returns what was taken out.
-ValuedVertices exchange(delaunay::Core& core, VertexValues& values, const std::vector<std::uint64_t>& out,
-                        const ValuedVertices& in) {
-    ValuedVertices taken;
-    ValuedVertices next;
-    std::vector<std::uint32_t> new_index(core.vertices.size(), delaunay::none);
-    std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
-    const auto add_until = [&](std::uint64_t id) {
-        for (std::size_t k = points.size(); k < in.vertices.size() && in.vertices[k].id < id; ++k) {
-            points.emplace_back(delaunay::to_cgal(in.vertices[k].position),
-                                static_cast<std::uint32_t>(next.vertices.size()));
-            next.vertices.push_back(in.vertices[k]);
-            append_row(in.values, k, next.values);
-        }
-    };
-    for (std::size_t i = 0; i < core.vertices.size(); ++i) {
-        const Vertex& vertex = core.vertices[i];
-        add_until(vertex.id);
-        const bool leaves = std::ranges::binary_search(out, vertex.id);
-        ValuedVertices& to = leaves ? taken : next;
-        if (!leaves) {
-            new_index[i] = static_cast<std::uint32_t>(next.vertices.size());
-        }
-        to.vertices.push_back(vertex);
-        append_row(values, i, to.values);
-    }
-    add_until(std::numeric_limits<std::uint64_t>::max());
-    assert(taken.vertices.size() == out.size());
-
-    std::vector<delaunay::VertexHandle> leaving;
-    for (const auto handle : core.triangulation.finite_vertex_handles()) {
-        handle->info() = new_index[handle->info()];
-        if (handle->info() == delaunay::none) {
-            leaving.push_back(handle);
-        }
-    }
-    for (const auto handle : leaving) {
-        core.triangulation.remove(handle);
-    }
-    core.triangulation.insert(points.begin(), points.end());
-    next.values.values.resize(values.values.size());
-    core.vertices = std::move(next.vertices);
-    values = std::move(next.values);
-    if (!core.vertices.empty()) {
-        core.next_id = std::max(core.next_id, core.vertices.back().id + 1);
-    }
-    assert(core.triangulation.number_of_vertices() == core.vertices.size());
-    return taken;
-}
 
 /// The seeds that find a place, with ids above all others.
 ValuedVertices placed_seeds(const Tessellation& tessellation, const std::vector<std::uint64_t>& leaving,

@@ -10,17 +10,12 @@
 
 #include "tess/barrier_query.hpp"
 #include "tess/domain.hpp"
+#include "tess/edit/exchange.hpp"
 #include "tess/refinement.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
-
-/// Vertices with their values, ascending by id.
-struct ValuedVertices {
-    std::vector<Vertex> vertices;
-    VertexValues values;  ///< in step with the vertices
-};
 
 /// What an insertion changed: enough to undo it, and to store.
 struct BarrierChange {

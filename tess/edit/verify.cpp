@@ -86,8 +86,9 @@ bool in_protection_zone(const Model& model, const std::vector<std::vector<double
 
 class Verifier {
   public:
-    Verifier(const Model& model, const ValueSourceFactory& factory)
+    Verifier(const Model& model, const ValueSourceFactory& factory, bool edited)
         : model_(model),
+          edited_(edited),
           proximity_(model_proximity(model)),
           factory_(factory),
           source_(factory ? factory(model, proximity_) : ValueSource()),
@@ -169,6 +170,10 @@ class Verifier {
 
     Verdict d3() {
         Offenders offenders;
+        if (edited_) {
+            return offenders.verdict("D3", "which samples are kept does not depend on their order",
+                                     "not asked: the model was edited, and an edit thins only what it adds");
+        }
         std::vector<std::uint32_t> inside;
         const Samples reversed = reversed_samples();
         for (const std::uint32_t i : canonical_order(reversed)) {
@@ -343,6 +348,9 @@ class Verifier {
     Verdict r6() {
         const std::string statement = "the same input gives the same tessellation, in any order of rows";
         Offenders offenders;
+        if (edited_) {
+            return offenders.verdict("R6", statement, "not asked: the model was edited");
+        }
         if (!factory_) {
             return offenders.verdict("R6", statement, "not tried: building again needs the estimator");
         }
@@ -372,7 +380,7 @@ class Verifier {
         };
         // Whether a move would be accepted can depend on values at the new place, which only the estimator knows.
         RefineOptions options;
-        options.clean_up = source_ || !model_.criteria.has_variation();
+        options.clean_up = !edited_ && (source_ || !model_.criteria.has_variation());
         const RefineReport report = refine(tessellation_, values, model_.domain, model_.frame, proximity_,
                                            model_.criteria, model_.properties, source_ ? source_ : none, options);
         if (report.inserted + report.moved + report.removed > 0) {
@@ -380,8 +388,9 @@ class Verifier {
                           std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");
         }
         return offenders.verdict("R7", "refining again changes nothing",
-                                 options.clean_up ? "nothing inserted, moved or removed"
-                                                  : "nothing inserted; moves need the estimator and are not tried");
+                                 edited_            ? "nothing inserted; moves are tried by a build's last sweeps"
+                                 : options.clean_up ? "nothing inserted, moved or removed"
+                                                    : "nothing inserted; moves need the estimator and are not tried");
     }
 
     Verdict volume() {
@@ -401,6 +410,7 @@ class Verifier {
     }
 
     const Model& model_;
+    bool edited_;
     BarrierQuery proximity_;
     const ValueSourceFactory& factory_;
     ValueSource source_;
@@ -413,8 +423,9 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress) {
-    return Verifier(model, factory).run(progress);
+std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress,
+                            bool edited) {
+    return Verifier(model, factory, edited).run(progress);
 }
 
 }  // namespace terratet

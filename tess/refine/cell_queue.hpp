@@ -8,10 +8,11 @@
 /// where the caches are warm. The order depends on the order of pushes alone, hence is deterministic when that is.
 ///
 /// A cell carries the slot of its entry as its tag; whoever destroys a cell calls forget() first, so no entry ever
-/// refers to a cell that is gone.
+/// refers to a cell that is gone. A tag that others left says nothing: the entry's cell tells whose it is.
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tess/mesh/delaunay.hpp"
@@ -38,8 +39,9 @@ class CellQueue {
     }
 
     void forget(delaunay::Cell cell) {
-        if (cell->info().tag != delaunay::none) {
-            cells_[cell->info().tag] = delaunay::Cell();
+        const std::uint32_t slot = cell->info().tag;
+        if (slot < cells_.size() && cells_[slot] == cell) {
+            cells_[slot] = delaunay::Cell();
             cell->info().tag = delaunay::none;
             --waiting_;
         }
@@ -53,7 +55,8 @@ class CellQueue {
                 const std::uint32_t slot = level.back();
                 level.pop_back();
                 free_.push_back(slot);
-                if (const delaunay::Cell cell = cells_[slot]; cell != delaunay::Cell()) {
+                if (const delaunay::Cell cell = std::exchange(cells_[slot], delaunay::Cell());
+                    cell != delaunay::Cell()) {
                     cell->info().tag = delaunay::none;
                     --waiting_;
                     return cell;

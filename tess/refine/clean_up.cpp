@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tess/mesh/gap_cell.hpp"
 
@@ -19,7 +20,7 @@ constexpr int candidate_count = 12;
 constexpr int candidate_count_thorough = 48;
 constexpr std::size_t few_patients = 32;  ///< a thorough sweep takes some 30 ms for each
 constexpr int severity_steps = 1000;
-constexpr std::uint32_t in_hole = 0;
+constexpr std::uint32_t in_hole = delaunay::none - 1;  ///< a tag that nobody else gives
 
 int steps_below(double value, double limit) {
     return limit > 0 && value < limit ? 1 + static_cast<int>((severity_steps - 1) * (1 - std::max(0.0, value) / limit))
@@ -54,8 +55,16 @@ CleanUpReport CleanUp::run() {
             cells.push_back(cell);
         }
     }
-    std::vector<Patient> all = below_limits(cells);
-    cells = {};
+    sweep_until_settled(below_limits(std::exchange(cells, {})), true);
+    return report_;
+}
+
+CleanUpReport CleanUp::run(const std::vector<Cell>& cells) {
+    sweep_until_settled(below_limits(cells), false);
+    return report_;
+}
+
+void CleanUp::sweep_until_settled(std::vector<Patient> all, bool last_resorts) {
     for (bool settled = false; !settled;) {
         thorough_ = false;
         settled = !sweep(all);
@@ -67,13 +76,12 @@ CleanUpReport CleanUp::run() {
             });
             sweep(touched);
         }
-        if (settled && all.size() <= few_patients) {
+        if (settled && last_resorts && all.size() <= few_patients) {
             thorough_ = true;
             settled = !sweep(all);
             all = patients_after(all);
         }
     }
-    return report_;
 }
 
 bool CleanUp::sweep(const std::vector<Patient>& waiting) {

@@ -39,6 +39,9 @@ class CleanUp {
     /// Removed vertices are gone from the triangulation but still in the core's table: removed() tells which.
     CleanUpReport run();
 
+    /// The same for some cells and what comes of them, by ordinary sweeps alone.
+    CleanUpReport run(const std::vector<delaunay::Cell>& cells);
+
     [[nodiscard]] const std::vector<std::uint32_t>& removed() const { return removed_; }
 
   private:
@@ -69,6 +72,7 @@ class CleanUp {
     [[nodiscard]] bool better(State& after, State& before) const;
     [[nodiscard]] bool movable(std::uint32_t vertex) const;
     [[nodiscard]] std::vector<std::uint32_t> neighbours(const Patient& patient) const;
+    void sweep_until_settled(std::vector<Patient> all, bool last_resorts);
     bool sweep(const std::vector<Patient>& waiting);
     bool treat(const Patient& patient);
     bool mend(std::uint32_t vertex, const Patient& patient);

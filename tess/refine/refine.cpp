@@ -14,6 +14,7 @@
 #include "tess/refine/insertion_rule.hpp"
 #include "tess/refine/live_cell.hpp"
 #include "tess/refine/live_vertices.hpp"
+#include "tess/refine/touched_cells.hpp"
 
 namespace terratet {
 
@@ -50,8 +51,14 @@ class Refiner {
         }
     }
 
-    RefineReport run() {
-        queue_all();
+    RefineReport run(const Touched* touched = nullptr) {
+        touched_ = touched;
+        if (touched == nullptr) {
+            queue_all();
+        } else if (core_.triangulation.dimension() == 3) {
+            first_new_ = static_cast<std::uint32_t>(core_.vertices.size());
+            queue_bad(touched_cells(core_, *touched, first_new_));
+        }
         do {
             while (const auto cell = queue_.pop()) {
                 if (++treated_ % 256 == 0) {
@@ -268,7 +275,8 @@ class Refiner {
 
     void clean_up() {
         CleanUp cleaning(core_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
-        const CleanUpReport done = cleaning.run();
+        const CleanUpReport done =
+            touched_ == nullptr ? cleaning.run() : cleaning.run(touched_cells(core_, *touched_, first_new_));
         report_.inserted += done.inserted;
         report_.moved = done.moved;
         report_.removed = done.removed;
@@ -308,6 +316,8 @@ class Refiner {
     std::vector<BadCell> bad_;
     std::vector<Facet> outside_;  ///< the zone's boundary seen from outside: it outlives the zone
     std::vector<Cell> star_;
+    const Touched* touched_ = nullptr;  ///< null: everything
+    std::uint32_t first_new_ = 0;
 };
 
 }  // namespace
@@ -316,6 +326,13 @@ RefineReport refine(Tessellation& tessellation, VertexValues& values, const Doma
                     const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
                     const ValueSource& source, const RefineOptions& options) {
     return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options).run();
+}
+
+RefineReport refine_around(const Touched& touched, Tessellation& tessellation, VertexValues& values,
+                           const Domain& domain, const Frame& frame, const BarrierQuery& barriers,
+                           const Criteria& criteria, std::span<const Property> properties, const ValueSource& source,
+                           const RefineOptions& options) {
+    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options).run(&touched);
 }
 
 }  // namespace terratet

@@ -11,6 +11,7 @@
 #include "tess/domain.hpp"
 #include "tess/frame.hpp"
 #include "tess/property.hpp"
+#include "tess/refine/touched.hpp"
 #include "tess/refinement.hpp"
 #include "tess/tessellation.hpp"
 #include "tess/value_source.hpp"
@@ -24,5 +25,12 @@ namespace terratet {
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
                     const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
                     const ValueSource& source, const RefineOptions& options = {});
+
+/// The same where something has changed only: other cells are judged as they were, so they would be left as they are.
+/// Slivers are mended by the ordinary sweeps. Besides a walk over the vertices the work is local.
+RefineReport refine_around(const Touched& touched, Tessellation& tessellation, VertexValues& values,
+                           const Domain& domain, const Frame& frame, const BarrierQuery& barriers,
+                           const Criteria& criteria, std::span<const Property> properties, const ValueSource& source,
+                           const RefineOptions& options = {});
 
 }  // namespace terratet

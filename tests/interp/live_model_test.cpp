@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
 #include <set>
 #include <thread>
 
 #include "tess/error.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/site_edits.hpp"
 #include "tess/value_source.hpp"
 #include "tests/tess/worlds.hpp"
 
@@ -97,7 +101,7 @@ TEST_CASE("What follows from a model is made once, also when many threads ask fi
     CHECK(state->cells().region.size() == state->mesh().cells.size());
 }
 
-TEST_CASE("A snapshot stays as it is while its model loses a fault, which leaves the model as without it") {
+TEST_CASE("A snapshot stays as it is while its model loses a fault, and what the edit made is a model like any") {
     const testing::World world = faulted_world();
     LiveModel live(world.site, world.options);
     const auto before = live.snapshot();
@@ -110,11 +114,70 @@ TEST_CASE("A snapshot stays as it is while its model loses a fault, which leaves
     CHECK(before->model().barriers.size() == 1);
     CHECK(before->mesh().cells == cells);
 
-    testing::World without = world;
-    without.site.surfaces.clear();
-    const LiveModel expected(without.site, without.options);
-    CHECK(live.snapshot()->mesh().points == expected.snapshot()->mesh().points);
-    CHECK(live.snapshot()->mesh().cells == expected.snapshot()->mesh().cells);
+    const LiveModel opened(Model(live.model()));
+    CHECK(live.snapshot()->mesh().points == opened.snapshot()->mesh().points);
+    CHECK(live.snapshot()->mesh().cells == opened.snapshot()->mesh().cells);
+    CHECK(live.snapshot()->cells().region == opened.snapshot()->cells().region);
+    CHECK(live.snapshot()->is_delaunay());
+    CHECK(same_values(*live.snapshot(), *opened.snapshot()));
+}
+
+TEST_CASE("X1: a moved borehole leaves cells and values that are far from it as they are") {
+    testing::World world = testing::random_world(5);
+    world.site.surfaces.clear();
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    world.options.criteria = {};
+    world.options.criteria.l_min = 6;
+    world.options.criteria.l_max = 24;
+    world.options.estimator = "idw:max_points=8";
+    LiveModel live(world.site, world.options);
+    REQUIRE_FALSE(live.model().boreholes.empty());
+    const auto before = live.snapshot();
+    std::vector<Vec3> places;
+    ModelPlan plan = plan_of(before->model());
+    const auto note = [&] {
+        for (std::size_t i = 0; i < plan.site.samples.size(); ++i) {
+            if (plan.site.samples.borehole[i] == 0) {
+                places.push_back(plan.site.samples.positions[i]);
+            }
+        }
+    };
+    note();
+    move_borehole(plan.site, before->model().boreholes.front().id, {3, -2, 1});
+    note();
+    live.edit(plan);
+    const auto after = live.snapshot();
+    std::map<Vec3, double> value_after;
+    for (std::size_t v = 0; v < after->model().vertices.size(); ++v) {
+        value_after[after->model().vertices[v].position] = after->model().vertex_values.values[1][v];
+    }
+    std::set<std::set<Vec3>> cells_after;
+    const auto corners = [](const TetMesh& mesh, std::size_t c) {
+        std::set<Vec3> places_of_cell;
+        for (const std::uint32_t v : mesh.cells[c]) {
+            places_of_cell.insert(mesh.points[v]);
+        }
+        return places_of_cell;
+    };
+    for (std::size_t c = 0; c < after->mesh().cells.size(); ++c) {
+        cells_after.insert(corners(after->mesh(), c));
+    }
+    std::size_t far = 0;
+    for (std::size_t c = 0; c < before->mesh().cells.size(); ++c) {
+        const Circumsphere sphere = circumsphere(cell_points(before->mesh(), before->mesh().cells[c]));
+        const double reach = std::sqrt(sphere.squared_radius) + 3 * 24;
+        if (std::ranges::all_of(places, [&](const Vec3& p) { return distance(p, sphere.center) > reach; })) {
+            ++far;
+            CHECK(cells_after.contains(corners(before->mesh(), c)));
+        }
+    }
+    CHECK(far > 100);
+    std::size_t same = 0;
+    for (std::size_t v = 0; v < before->model().vertices.size(); ++v) {
+        const auto found = value_after.find(before->model().vertices[v].position);
+        same += found != value_after.end() && found->second == before->model().vertex_values.values[1][v] ? 1 : 0;
+    }
+    CHECK(same > far / 10);
 }
 
 TEST_CASE("Uncertainty becomes properties of the model, and none of a snapshot that somebody holds") {

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// A model into another by a local change of its tessellation, without building it anew (DESIGN §4.5): boreholes,
+/// samples, faults and horizons come, go and move; the resolution of a part changes.
+///
+/// Vertices whose samples and seeds are gone leave, with what refinement had put within l_max of them; new ones come,
+/// inserted ones in their way leave; what was touched is refined as a build refines. Hull box, extent, defaults and the
+/// estimator's fitted parameters stay as they are. An edit thins only what it adds, against what is kept.
+///
+/// Guarantees
+///  X1  Cells whose circumsphere does not meet the edit's geometry grown by 3 l_max stay as they are, and their values
+///      where the samples they come from do.
+///  All of building but D3 and R6, which speak of building; R7 of insertion.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tess/build.hpp"
+
+namespace terratet {
+
+/// All that an edit may change; the rest of the model follows or stays.
+struct ModelPlan {
+    Site site;  ///< in the model's frame
+    Criteria criteria;
+    DensityMode density = DensityMode::canonical;
+    BarrierOptions barriers;
+    std::vector<RegionName> region_names;
+    std::string estimator;  ///< as it was fitted, or another specification
+};
+
+ModelPlan plan_of(const Model& model);
+
+/// Can change_model do it? Criteria that hold everywhere, density, estimator and barrier options ask for a build.
+bool is_local_change(const Model& before, const ModelPlan& plan);
+
+/// Ids of vertices, ascending.
+struct VertexChanges {
+    std::vector<std::uint64_t> removed;
+    std::vector<std::uint64_t> added;
+    std::vector<std::uint64_t> changed;  ///< other place, role, owner's side or values
+};
+
+VertexChanges vertex_changes(const Model& before, const Model& after);
+
+struct ChangeReport {
+    std::size_t samples_out = 0;  ///< of vertices: those that stood for a sample that left, or that was thinned
+    std::size_t samples_in = 0;
+    std::size_t seeds_out = 0;
+    std::size_t seeds_in = 0;
+    std::size_t inserted_out = 0;    ///< of refinement, called for by what left or in the way of what comes
+    std::size_t coincident = 0;      ///< samples merged
+    std::size_t outside_extent = 0;  ///< samples beyond the extent: they feed the estimator only
+    RefineReport refine;
+    std::vector<BarrierAccount> barriers;  ///< of surfaces that were prepared
+};
+
+/// The next model with its tessellation and barriers; mesh and cell table are left to be made. `tessellation` is that
+/// of `before`, and is spent whatever happens. `factory` is asked once the next samples and barriers are there;
+/// `same_values` says that they are the old ones, so that no estimate changes. Ids go on above those of `before`.
+/// Throws as build() does, UsageError when the model would be left without a sample.
+/// Local, but for walks over vertices, samples and values of some nanoseconds each, and for estimates, which are all
+/// made again when samples or barriers have changed. \pre is_local_change
+std::unique_ptr<TessellatedModel> change_model(
+    const Model& before, Tessellation tessellation, ModelPlan plan,
+    const std::function<ValueSource(const Model&, const BarrierQuery&, bool same_values)>& factory,
+    ChangeReport& report, const Progress& progress = {}, const RefineOptions& refine = {});
+
+}  // namespace terratet

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tess/change_model.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "tess/error.hpp"
+#include "tess/mesh/quality.hpp"
+#include "tess/site_edits.hpp"
+#include "tess/verify.hpp"
+#include "tests/tess/worlds.hpp"
+
+using namespace terratet;
+
+namespace {
+
+/// A model that goes through edits, its tessellation kept up.
+struct Edited {
+    Model model;
+    Tessellation tessellation;
+    ChangeReport report;
+
+    explicit Edited(Model built) : model(std::move(built)), tessellation(tessellate(model)) {}
+
+    void apply(ModelPlan plan) {
+        report = {};
+        const auto factory = [](const Model& of, const BarrierQuery& barriers, bool) {
+            return testing::analytic_field()(of, barriers);
+        };
+        auto changed = change_model(model, std::move(tessellation), std::move(plan), factory, report);
+        model = std::move(changed->model);
+        tessellation = std::move(*changed->tessellation);
+    }
+};
+
+/// What the edit is about, and how far it may reach.
+struct Geometry {
+    std::vector<Vec3> places;
+
+    [[nodiscard]] double distance_to(const Vec3& p) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& q : places) {
+            nearest = std::min(nearest, distance(p, q));
+        }
+        return nearest;
+    }
+};
+
+void add_hole(const Site& site, std::int32_t hole, Geometry& geometry) {
+    for (std::size_t i = 0; i < site.samples.size(); ++i) {
+        if (site.samples.borehole[i] == hole) {
+            geometry.places.push_back(site.samples.positions[i]);
+        }
+    }
+}
+
+/// A random edit of any kind.
+ModelPlan random_plan(const Model& model, testing::Random& random, Geometry& geometry, std::string& what) {
+    ModelPlan plan = plan_of(model);
+    const std::uint64_t kind = random.below(10);
+    const auto holes = static_cast<std::int32_t>(model.boreholes.size());
+    if (kind < 4 && holes > 0) {
+        const auto hole = static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(holes)));
+        const std::string id = model.boreholes[static_cast<std::size_t>(hole)].id;
+        add_hole(plan.site, hole, geometry);
+        what = "move " + id;
+        move_borehole(plan.site, id, random.in({{-20, -20, -5}, {20, 20, 5}}));
+        add_hole(plan.site, hole, geometry);
+    } else if (kind == 4 && holes > 2) {
+        const auto hole = static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(holes)));
+        add_hole(plan.site, hole, geometry);
+        what = "remove a hole";
+        remove_borehole(plan.site, model.boreholes[static_cast<std::size_t>(hole)].id);
+    } else if (kind == 5) {
+        Site added;
+        added.frame = model.frame;
+        added.properties = model.properties;
+        added.samples.values.resize(2);
+        const Vec3 at = random.in({{20, 20, -150}, {280, 280, 0}});
+        added.boreholes.push_back({"N" + std::to_string(random.below(1'000'000'000)), at, {at}, {0}});
+        for (int i = 0; i < 15; ++i) {
+            added.samples.positions.push_back(model.frame.snapped(at - Vec3{0, 0, 4.0 * i}));
+            added.samples.borehole.push_back(0);
+            added.samples.depth.push_back(4.0 * i);
+            added.samples.length.push_back(0);
+            added.samples.values[0].push_back(1);
+            added.samples.values[1].push_back(1e-9);
+        }
+        geometry.places = added.samples.positions;
+        what = "add a hole";
+        CHECK(add_site(plan.site, added).empty());
+    } else if (kind == 6) {
+        std::vector<bool> marked(model.samples.size());
+        for (std::size_t i = 0; i < marked.size(); ++i) {
+            marked[i] = random() < 0.02 && model.samples.size() > 20;
+            if (marked[i]) {
+                geometry.places.push_back(model.samples.positions[i]);
+            }
+        }
+        what = "remove samples";
+        remove_samples(plan.site, marked);
+    } else if (kind == 7 && !plan.site.surfaces.empty()) {
+        Surface surface = plan.site.surfaces[random.below(plan.site.surfaces.size())];
+        remove_surface(plan.site, surface.name);
+        for (const Barrier& barrier : model.barriers) {  // what it meets is prepared again
+            geometry.places.insert(geometry.places.end(), barrier.sheet.vertices.begin(), barrier.sheet.vertices.end());
+            geometry.places.insert(geometry.places.end(), barrier.margin.vertices.begin(),
+                                   barrier.margin.vertices.end());
+        }
+        what = "remove " + surface.name;
+        if (random() < 0.5) {
+            for (Vec3& p : surface.vertices) {
+                p = p + Vec3{7, 0, 0};
+                geometry.places.push_back(p);
+            }
+            what = "replace " + surface.name;
+            plan.site.surfaces.push_back(surface);
+        }
+    } else if (kind == 8 && model.surfaces.size() < 3) {
+        plan.site.surfaces.push_back(testing::planar_fault(
+            "G" + std::to_string(random.below(1'000'000'000)), random.in({{80, 80, -150}, {220, 220, -50}}),
+            random(0, 360), random(20, 90), random(40, 90), random(40, 80), model.criteria.l_min));
+        what = "add a fault";
+    } else {
+        auto& parts = plan.criteria.overrides;
+        if (!parts.empty() && random() < 0.5) {
+            parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(random.below(parts.size())));
+        }
+        const Vec3 corner = random.in({{0, 0, -200}, {200, 200, -100}});
+        const double l_min = random(0.6, 1.5) * model.criteria.l_min;
+        parts.push_back({ResolutionOverride::Where::box,
+                         {corner, corner + random.in({{20, 20, 20}, {80, 80, 80}})},
+                         {},
+                         l_min,
+                         l_min * random(1.5, 6)});
+        what = "set a resolution";
+    }
+    return plan;
+}
+
+void check_guarantees(const Model& model, const std::string& history) {
+    for (const Verdict& verdict : verify(model, testing::analytic_field(), {}, true)) {
+        INFO(history << ": " << verdict.guarantee << ' ' << verdict.statement << ' ' << verdict.detail);
+        CHECK(verdict.holds);
+    }
+}
+
+/// The tessellation kept up against one of the stored vertices, cell for cell.
+void check_same_cells(const Edited& edited) {
+    const TetMesh kept = edited.tessellation.mesh();
+    const TetMesh fresh = tessellate(edited.model).mesh();
+    CHECK(kept.points == fresh.points);
+    CHECK(kept.cells == fresh.cells);
+    CHECK(kept.neighbours == fresh.neighbours);
+    CHECK(std::ranges::equal(edited.tessellation.vertices(), edited.model.vertices));
+}
+
+std::uint64_t edit_count() {
+    const char* const asked = std::getenv("TERRATET_EDITS");
+    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 3000;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "X3: random edits leave the tessellation of the stored vertices, and every guarantee that is asked of an edited "
+    "model") {
+    testing::Random random(99);
+    const std::uint64_t worlds = 30;
+    const std::uint64_t each = edit_count() / worlds;
+    for (std::uint64_t w = 0; w < worlds; ++w) {
+        testing::World world = testing::random_world(100 + w);
+        if (world.site.samples.size() < 30) {
+            continue;
+        }
+        world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+        std::optional<Edited> edited;
+        edited.emplace(std::move(testing::build_world(world).model));
+        std::string history = world.description;
+        for (std::uint64_t e = 0; e < each; ++e) {
+            Geometry geometry;
+            std::string what;
+            ModelPlan plan = random_plan(edited->model, random, geometry, what);
+            history += ", " + what;
+            edited->apply(std::move(plan));
+            if (e % 25 == 0) {
+                INFO(history);
+                check_same_cells(*edited);
+                check_guarantees(edited->model, history);
+            }
+        }
+    }
+}

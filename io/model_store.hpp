@@ -30,6 +30,23 @@ struct JournalEntry {
 ///      and margin are of one kind; vertices of role domain and inserted have owner −1.
 void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite = false);
 
+/// Numbers of rows in the file, in step with the model's lists. Those of a new model count up from 1; sheets follow the
+/// surfaces, each with its margin behind it.
+struct RowNumbers {
+    std::vector<std::int64_t> boreholes;
+    std::vector<std::int64_t> samples;
+    std::vector<std::int64_t> surfaces;
+    std::vector<std::int64_t> sheets;  ///< of barriers; the margin is the next row
+    std::vector<std::int64_t> vertices;
+};
+
+/// What a file says of the state it is in: what an edit of it starts from.
+struct StoredState {
+    RowNumbers numbers;
+    std::string digest;
+    std::int64_t last_edit = 0;  ///< the largest number in the journal
+};
+
 struct LoadOptions {
     /// The digest of what was stored is not asked for: the caller verifies what the model promises (tess/verify.hpp).
     bool accept_edited = false;
@@ -39,7 +56,32 @@ struct LoadOptions {
 /// (named), a number that no model can hold (layer, row, column and what was found), or rows changed by another program
 /// (the stored digest differs, or is missing). The file may come from anybody: nothing that its schema holds is run
 /// (model_guard.hpp).
-Model load_model(const std::string& path, const LoadOptions& options = {});
+Model load_model(const std::string& path, const LoadOptions& options = {}, StoredState* state = nullptr);
+
+/// Brings the file from one state to the next in one transaction, which writes the rows that differ and notes them in
+/// terratet_changes: all or nothing, whatever happens. `before` and `state` are what load_model gave, or the last
+/// store_edit; entry.edit is set to the next number. Returns the state it is in then. Throws Error when writing fails,
+/// also when the file is in another state meanwhile (somebody else has edited it), and UsageError for PG: connection
+/// strings.
+StoredState store_edit(const std::string& path, const Model& before, const StoredState& state, const Model& after,
+                       JournalEntry entry);
+
+/// One line of the journal and what became of it.
+struct HistoryEntry : JournalEntry {
+    bool undone = false;
+    bool can_undo = false;  ///< it changed rows: neither the build nor an undo itself
+    std::size_t rows = 0;   ///< that it changed
+};
+
+/// In order. Throws InputError as load_model does.
+std::vector<HistoryEntry> load_history(const std::string& path);
+
+/// Takes back the last edits that stand, or brings back the last taken back (until another edit is made), in one
+/// transaction: the rows become those that were there, bit for bit (X2). No source file is needed. Returns their
+/// entries. Throws UsageError when there are not so many, InputError when a row is not as the edit left it, Error as
+/// store_edit.
+std::vector<JournalEntry> undo_edits(const std::string& path, std::size_t count = 1);
+std::vector<JournalEntry> redo_edits(const std::string& path, std::size_t count = 1);
 
 /// Throws InputError as load_model does.
 std::vector<JournalEntry> load_journal(const std::string& path);

@@ -18,40 +18,33 @@
 
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/gdal_scope.hpp"
+#include "io/model/row_writer.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
 
-/// A column's place in its layer.
-using Column = int;
-
 /// What GDAL said of a write that failed, and what to do about a full disk; empty when it said nothing.
 std::string because(const GdalScope& scope);
 
-class LayerWriter {
+class LayerWriter final : public RowWriter {
   public:
     LayerWriter(GDALDataset& dataset, const GdalScope& scope, std::string file, const char* name,
                 OGRwkbGeometryType type, const OGRSpatialReference* reference);
 
-    /// Columns, then the layer with them.
-    Column number(const std::string& name) { return add(name, OFTReal); }
-    Column integer(const std::string& name) { return add(name, OFTInteger64); }
-    Column text(const std::string& name) { return add(name, OFTString); }
-    Column bytes(const std::string& name) { return add(name, OFTBinary); }
+    Column number(const std::string& name) override { return add(name, OFTReal); }
+    Column integer(const std::string& name) override { return add(name, OFTInteger64); }
+    Column text(const std::string& name) override { return add(name, OFTString); }
+    Column bytes(const std::string& name) override { return add(name, OFTBinary); }
+    void create() override;
+    void set(Column column, double value) override;
+    void set(Column column, std::int64_t value) override;
+    void set(Column column, const std::string& value) override;
+    void set(Column column, std::span<const std::byte> value) override;
+    void set_point(const Vec3& position) override;
+    void set_geometry(std::unique_ptr<OGRGeometry> geometry) override;
 
-    /// Throws Error, naming the file, as do all functions that write.
-    void create();
-
-    /// Cells of the row to come; what is not set is null.
-    void set(Column column, double value);  ///< NaN is null
-    void set(Column column, std::int64_t value);
-    void set(Column column, const std::string& value);
-    void set(Column column, std::span<const std::byte> value);
-    void set_point(const Vec3& position);
-    void set_geometry(std::unique_ptr<OGRGeometry> geometry);
-
-    /// Writes the row, with the next number from 1.
-    void write();
+    /// With the next number from 1.
+    void write() override;
 
   private:
     Column add(const std::string& name, OGRFieldType type);

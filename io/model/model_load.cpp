@@ -13,6 +13,8 @@
 #include "io/model/model_schema.hpp"
 #include "io/model/opened_model.hpp"
 #include "io/model/row_index.hpp"
+#include "io/model/row_order.hpp"
+#include "io/model/shown_mesh.hpp"
 #include "io/model_store.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
@@ -48,7 +50,7 @@ class ModelReader {
     ModelReader(GDALDataset& dataset, GdalScope& scope, std::string file)
         : dataset_(dataset), scope_(scope), file_(std::move(file)) {}
 
-    Model read(const LoadOptions& options);
+    Model read(const LoadOptions& options, StoredState* state);
 
   private:
     LayerReader layer(const char* name) { return {dataset_, scope_, file_, name}; }
@@ -83,6 +85,7 @@ class ModelReader {
     std::vector<std::string> censored_columns_;
     std::vector<std::map<std::string, double>> classes_;  ///< of each property
     RowIndex borehole_rows_, sample_rows_;
+    RowNumbers numbers_;
     std::map<std::int64_t, std::size_t> fault_of_sheet_row_;
     std::vector<bool> has_margin_;
     std::vector<std::size_t> seeds_among_vertices_;  ///< how many to find there, by fault
@@ -188,30 +191,6 @@ void ModelReader::read_samples() {
     }
 }
 
-/// Does the geometry show the triangles of the arrays? Else another program has edited it, in vain.
-bool shows(const OGRGeometry* geometry, const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
-    if (!geometry || wkbFlatten(geometry->getGeometryType()) != wkbMultiPolygon) {
-        return triangles.empty() && (!geometry || geometry->IsEmpty());
-    }
-    const OGRMultiPolygon& polygons = *geometry->toMultiPolygon();
-    if (static_cast<std::size_t>(polygons.getNumGeometries()) != triangles.size()) {
-        return false;
-    }
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const OGRLinearRing* const ring = polygons.getGeometryRef(static_cast<int>(i))->getExteriorRing();
-        if (!ring || ring->getNumPoints() != 4) {
-            return false;
-        }
-        for (int k = 0; k < 4; ++k) {
-            if (Vec3{ring->getX(k), ring->getY(k), ring->getZ(k)} !=
-                vertices[triangles[i][static_cast<std::size_t>(k % 3)]]) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 Surface ModelReader::read_mesh(const LayerReader& layer, const schema::SurfaceColumns& columns) {
     Surface surface;
     surface.name = layer.required_text_at(columns.name);
@@ -270,6 +249,7 @@ void ModelReader::read_fault_part(const LayerReader& layer, const schema::Surfac
         fault.seeds.push_back({local(layer, {x, y, z}), static_cast<std::int8_t>(side)});
     }
     fault_of_sheet_row_[layer.row_number()] = model_.barriers.size();
+    numbers_.sheets.push_back(layer.row_number());
     has_margin_.push_back(false);
     const std::int64_t count = layer.required_integer_at(columns.seed_count);
     const bool packed_here = layer.is_set(columns.seeds) || count == 0;
@@ -300,6 +280,7 @@ void ModelReader::read_surfaces() {
         }
         Surface surface = read_mesh(layer, columns);
         surface.kind = *known;
+        numbers_.surfaces.push_back(layer.row_number());
         model_.surfaces.push_back(std::move(surface));
     }
     if (std::find(has_margin_.begin(), has_margin_.end(), false) != has_margin_.end()) {
@@ -346,6 +327,7 @@ void ModelReader::read_vertices() {
         }
         vertex.position = local(layer, layer.point());
         model_.vertices.push_back(vertex);
+        numbers_.vertices.push_back(layer.row_number());
         values.extrapolation.push_back(layer.number_at(columns.extrapolation));
         layer.require(!(values.extrapolation.back() < 0 || values.extrapolation.back() > 1), columns.extrapolation,
                       "a share from 0 to 1");
@@ -407,8 +389,9 @@ void ModelReader::require_counts_and_digest(const MetaContent& meta, const LoadO
     }
 }
 
-Model ModelReader::read(const LoadOptions& options) {
-    MetaContent meta = from_meta(read_meta(), file_);
+Model ModelReader::read(const LoadOptions& options, StoredState* state) {
+    const Meta pairs = read_meta();
+    MetaContent meta = from_meta(pairs, file_);
     model_ = std::move(meta.model);
     columns_ = std::move(meta.property_columns);
     censored_columns_ = std::move(meta.censored_columns);
@@ -424,16 +407,29 @@ Model ModelReader::read(const LoadOptions& options) {
     read_vertices();
     find_seeds_among_vertices();
     require_distinct_places();
+    numbers_.boreholes = borehole_rows_.rows();
+    numbers_.samples = sample_rows_.rows();
+    if (const auto order = pairs.find("row_order"); order != pairs.end()) {
+        put_in_order(order->second, model_, numbers_, file_);
+    }
     require_counts_and_digest(meta, options);
+    if (state != nullptr) {
+        *state = {std::move(numbers_), meta.digest, 0};
+    }
     return std::move(model_);
 }
 
 }  // namespace
 
-Model load_model(const std::string& path, const LoadOptions& options) {
+Model load_model(const std::string& path, const LoadOptions& options, StoredState* state) {
+    std::vector<JournalEntry> journal = state != nullptr ? load_journal(path) : std::vector<JournalEntry>();
     GdalScope scope(path);
     const Dataset dataset = open_model(path, scope);
-    return naming_file(path, [&] { return ModelReader(*dataset, scope, path).read(options); });
+    Model model = naming_file(path, [&] { return ModelReader(*dataset, scope, path).read(options, state); });
+    for (const JournalEntry& entry : journal) {
+        state->last_edit = std::max(state->last_edit, entry.edit);
+    }
+    return model;
 }
 
 }  // namespace terratet

@@ -5,6 +5,7 @@
 #include "io/model/model_guard.hpp"
 #include "io/model/model_schema.hpp"
 #include "io/model/opened_model.hpp"
+#include "io/model/sqlite_database.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 
@@ -26,6 +27,7 @@ std::vector<JournalEntry> load_journal(const std::string& path) {
 bool is_model(const std::string& path) {
     GdalScope scope(path);
     if (!is_connection(path)) {
+        roll_back_interrupted(path);
         return holds_model(path);
     }
     try {

@@ -6,6 +6,7 @@
 
 #include "io/model/model_guard.hpp"
 #include "io/model/model_schema.hpp"
+#include "io/model/sqlite_database.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 
@@ -13,6 +14,7 @@ namespace terratet {
 
 Dataset open_model(const std::string& path, GdalScope& scope) {
     VSIStatBufL status;
+    roll_back_interrupted(path);
     if (!is_connection(path) && VSIStatL(path.c_str(), &status) == 0 && holds_model(path)) {
         require_plain_model(path);
     }

@@ -26,6 +26,8 @@ class RowIndex {
                                                      : std::nullopt;
     }
 
+    [[nodiscard]] const std::vector<std::int64_t>& rows() const { return rows_; }
+
   private:
     std::vector<std::int64_t> rows_;  ///< ascending
 };

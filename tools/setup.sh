@@ -10,7 +10,7 @@
 BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
   libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libmeshoptimizer-dev libcairo2-dev zlib1g-dev
-  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libeigen3-dev
+  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libeigen3-dev libcpp-httplib-dev
 )
 # What the tests need besides: independent readers of our outputs among others.
 TEST_PACKAGES=(

@@ -96,7 +96,7 @@ class Query(Case):
 
     def test_what_cannot_be_done_is_said(self):
         points = self.write("p.csv", "a,b\n1,2\n")
-        self.fail_with(2, "query", "m.gpkg", "values", points, saying="there is value")
+        self.fail_with(2, "query", "m.gpkg", "values", points, saying="did you mean value?")
         self.fail_with(2, "query", "m.gpkg", "value", points, "--side", "west", saying="'west' is neither + nor -")
         self.fail_with(3, "query", "m.gpkg", "value", points, saying="no column for x")
         self.fail_with(3, "query", "m.gpkg", "value", "none.csv", saying="none.csv")

@@ -56,7 +56,7 @@ class Check final : public Command {
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verdicts_on(model, display.callback());
+            verdicts = verdicts_on(model, paths_.front(), display.callback());
         }
         print(json_ ? as_json(verdicts) : as_lines(verdicts));
         const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds; });

@@ -78,6 +78,7 @@ int dispatch(const std::vector<std::string>& arguments) {
     const auto given = parse_arguments(command->syntax(), rest);
     const bool quiet = std::any_of(given.begin(), given.end(), [](const Given& option) { return option.name == "q"; });
     spdlog::set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+    command->open_sockets();
     stay_offline(arguments);
     return command->run(given);
 }

@@ -18,6 +18,9 @@ class Command {
   public:
     virtual ~Command() = default;
     [[nodiscard]] virtual Syntax syntax() = 0;
+    /// Opens what it has to listen at, after the targets are filled: afterwards no socket can be had
+    /// (tools/run/offline.hpp).
+    virtual void open_sockets() {}
     /// Does the work after the targets are filled and returns the exit code. `given` goes to the model's journal.
     virtual int run(const std::vector<struct Given>& given) = 0;
 };
@@ -42,7 +45,9 @@ CommandEntry convert_command();
 CommandEntry export_command();
 CommandEntry info_command();
 CommandEntry check_command();
+CommandEntry edit_command();
 CommandEntry query_command();
+CommandEntry live_command();
 CommandEntry validate_command();
 CommandEntry completion_command();
 

@@ -354,6 +354,10 @@ void set_horizons(const std::string& horizon, Site& site) {
     }
 }
 
+std::uint64_t fitting_vertex_limit() {
+    return memory_limit() / bytes_per_vertex;
+}
+
 BuildOptions build_options(const ModelArguments& a, const Site& site) {
     const double unit = site.frame.metres_per_unit;
     BuildOptions options;
@@ -385,8 +389,7 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     options.barriers.snap = positive_length("--fault-snap", a.fault_snap, unit);
     options.barriers.mode = fault_mode(a.fault_mode);
     options.barriers.refine = a.fault_refine;
-    options.refine.max_vertices =
-        a.max_vertices == fitting_vertices ? memory_limit() / bytes_per_vertex : a.max_vertices;
+    options.refine.max_vertices = a.max_vertices == fitting_vertices ? fitting_vertex_limit() : a.max_vertices;
     options.estimator = parse_estimator(a.estimator).to_string();
     return options;
 }

@@ -54,6 +54,9 @@ Option horizon_option(std::string& horizon);
 /// UsageError for anything else, or a property there is none of.
 void set_horizons(const std::string& horizon, Site& site);
 
+/// What --max-vertices is where it is not given.
+std::uint64_t fitting_vertex_limit();
+
 /// In the frame and with the properties of `site`. Throws UsageError: also for a property there is none of.
 BuildOptions build_options(const ModelArguments& arguments, const Site& site);
 

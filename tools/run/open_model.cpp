@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/run/open_model.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "interp/estimator_plan.hpp"
@@ -18,17 +20,20 @@ Option accept_edited_option(bool& accept_edited) {
             &accept_edited};
 }
 
-std::vector<Verdict> verdicts_on(const Model& model, const Progress& progress) {
+std::vector<Verdict> verdicts_on(const Model& model, const std::string& path, const Progress& progress) {
     const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of, const BarrierQuery& faults) {
         return make_model_source(of, faults, plan);
     };
-    return verify(model, factory, progress);
+    const auto history = load_history(path);
+    const bool edited =
+        std::ranges::any_of(history, [](const HistoryEntry& entry) { return entry.can_undo && !entry.undone; });
+    return verify(model, factory, progress, edited);
 }
 
-Model open_model(const std::string& path, bool accept_edited, const Progress& progress) {
-    Model model = load_model(path, {.accept_edited = accept_edited});
+Model open_model(const std::string& path, bool accept_edited, const Progress& progress, StoredState* state) {
+    Model model = load_model(path, {.accept_edited = accept_edited}, state);
     if (accept_edited) {
-        for (const Verdict& verdict : verdicts_on(model, progress)) {
+        for (const Verdict& verdict : verdicts_on(model, path, progress)) {
             if (!verdict.holds) {
                 throw InputError(fmt::format("{}: was edited, and does not keep {} any more: {}{}", path,
                                              verdict.guarantee, verdict.statement,

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// The words of a query: the same on the command line and in a live session.
+
+#include <string>
+#include <vector>
+
+#include "tools/options/option.hpp"
+
+namespace terratet::tools {
+
+struct QueryArguments {
+    std::vector<std::string> words;  ///< the verb and where its places are
+    std::vector<std::string> at;
+    std::string count = "1";
+    std::string distance;
+    std::string box;
+    std::string borehole;
+    std::string plane;
+    std::string step;
+    std::string above;
+    std::string estimator;
+    std::string crs;
+    std::vector<std::string> columns;
+    std::string side = "+";
+    bool probabilities = false;
+    bool no_deviation = false;
+};
+
+std::vector<OptionGroup> query_options(QueryArguments& arguments);
+
+/// From a list of words, as a live session has them. Throws UsageError.
+QueryArguments parse_query(const std::vector<std::string>& words);
+
+/// "x,y,z" and the like. Throws UsageError naming the option, unless there are from `least` to `most` numbers, each
+/// within 1e9.
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t least,
+                                  std::size_t most);
+
+}  // namespace terratet::tools

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/run/query.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "tess/error.hpp"
+#include "tools/options/site_options.hpp"
+#include "tools/options/text.hpp"
+
+namespace terratet::tools {
+namespace {
+
+std::string full(double number) {
+    return fmt::format("{}", number);
+}
+
+}  // namespace
+
+PointTable query_points(const ModelSnapshot& opened, const QueryArguments& a, Diagnostics& diagnostics) {
+    const Model& model = opened.model();
+    if (a.at.empty() == (a.words.size() < 2)) {
+        throw UsageError("query " + a.words.front() +
+                         ": give either a table of points (- for standard input) or --at x,y,z");
+    }
+    if (a.at.empty()) {
+        return read_points(parse_source(a.words[1] == "-" ? "/vsistdin/" : a.words[1]), model.frame, a.crs,
+                           column_names(a.columns), diagnostics);
+    }
+    PointTable points;
+    points.table.columns = {"x", "y", "z"};
+    points.table.cells.resize(3);
+    for (const std::string& text : a.at) {
+        const auto n = parse_numbers("--at", text, 3, 3);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            points.table.cells[axis].push_back(full(n[axis]));
+        }
+        points.positions.push_back(model.frame.to_local({n[0], n[1], n[2]}));
+    }
+    return points;
+}
+
+RowCell value_cell(const Property& property, double value) {
+    if (std::isnan(value)) {
+        return {};
+    }
+    if (property.kind == Kind::categorical && value >= 0 && value < static_cast<double>(property.classes.size())) {
+        return property.classes[static_cast<std::size_t>(value)];
+    }
+    return value;
+}
+
+void add_column(std::vector<RowColumn>& columns, std::string name, RowColumn::Type type) {
+    while (std::ranges::find(columns, name, &RowColumn::name) != columns.end()) {
+        name += "_estimate";  // the table's own are left as they are
+    }
+    columns.push_back({std::move(name), type});
+}
+
+void add_property_columns(const Model& model, std::vector<RowColumn>& columns) {
+    for (const Property& property : model.properties) {
+        add_column(columns, property.name,
+                   property.kind == Kind::categorical ? RowColumn::Type::text : RowColumn::Type::number);
+    }
+}
+
+void run_query(const ModelSnapshot& model, const QueryArguments& a, RowSink& sink, QueryRemarks& remarks) {
+    using Verb = std::function<void(const ModelSnapshot&, const QueryArguments&, RowSink&, QueryRemarks&)>;
+    static const std::map<std::string, Verb> verbs{
+        {"value", query_values}, {"nearest", query_vertices},    {"within", query_vertices},
+        {"box", query_vertices}, {"neighbours", query_vertices}, {"cell", query_cells},
+        {"line", query_line},    {"section", query_section},     {"region", query_regions}};
+    const auto found = verbs.find(a.words.front());
+    if (found == verbs.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, verb] : verbs) {
+            names.push_back(name);
+        }
+        const std::string nearest = nearest_word(a.words.front(), names);
+        throw UsageError(fmt::format(
+            "query: '{}' is not known; {}", a.words.front(),
+            nearest.empty() ? fmt::format("there is {}", fmt::join(names, ", ")) : "did you mean " + nearest + "?"));
+    }
+    if (a.side != "+" && a.side != "-") {
+        throw UsageError("query --side: '" + a.side + "' is neither + nor -");
+    }
+    found->second(model, a, sink, remarks);
+    sink.end();
+}
+
+}  // namespace terratet::tools

@@ -13,10 +13,12 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 
 def volume(grid):
-    sizes = vtk.vtkCellSizeFilter()
-    sizes.SetInputData(grid)
-    sizes.Update()
-    return vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume")).sum() if grid.GetNumberOfCells() else 0.0
+    """Of tetrahedra."""
+    if grid.GetNumberOfCells() == 0:
+        return 0.0
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    a, b, c, d = (points[k] for k in vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4).T)
+    return numpy.abs(numpy.einsum("ij,ij->i", b - a, numpy.cross(c - a, d - a))).sum() / 6
 
 
 def clipped(grid, function):
@@ -25,8 +27,11 @@ def clipped(grid, function):
     if function is not None:
         cut.SetClipFunction(function)
     cut.SetValue(0)
-    cut.Update()
-    return cut.GetOutput()
+    tetrahedra = vtk.vtkDataSetTriangleFilter()  # what is left of a cell may be a wedge
+    tetrahedra.SetInputConnection(cut.GetOutputPort())
+    tetrahedra.TetrahedraOnlyOn()
+    tetrahedra.Update()
+    return tetrahedra.GetOutput()
 
 
 def main(path, name, value, *rest):

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -125,7 +126,8 @@ OutputRecord export_to_standard_output(const ModelSnapshot& model, const ExportO
 std::string made_by(const Model& model) {
     std::string text = fmt::format("Terratet {}: terratet build --lmin {:.6g} --lmax {:.6g}", version,
                                    model.criteria.l_min, model.criteria.l_max);
-    for (const Property& property : model.properties) {
+    constexpr std::size_t most = 3;  // a line, not a page
+    for (const Property& property : std::span(model.properties).first(std::min(most, model.properties.size()))) {
         text += fmt::format(" --property {}{}{}", property.name, property.scale == Scale::log10 ? ":log10" : "",
                             property.kind == Kind::categorical ? ":categorical" : "");
     }

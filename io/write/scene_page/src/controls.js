@@ -95,6 +95,13 @@ export class Controls {
 
   field(title, ...children) { return make('fieldset', {}, make('legend', {}, title), ...children); }
 
+  /** Of no use for classes. */
+  quantity(title, ...children) {
+    const field = this.field(title, ...children);
+    field.dataset.quantity = '';
+    return field;
+  }
+
   check(key, label, more = {}) {
     const input = make('input', { type: 'checkbox', 'data-key': key, onchange: () => this.set({ [key]: input.checked, ...more }) });
     return make('label', {}, input, make('span', {}, label));
@@ -152,11 +159,11 @@ export class Controls {
     const wide = Math.max(max[0] - min[0], max[1] - min[1]);
     this.panel.append(
       this.field('Property', make('label', {}, choice('p', properties.map(({ name }) => name))), make('label', {}, make('span', {}, 'colours'), choice('map', Object.keys(info.maps))),
-                 this.histogram, make('label', {}, ...ends)),
+                 make('div', { 'data-quantity': '' }, this.histogram, make('label', {}, ...ends))),
       this.field('Sections', section('ew', 1), section('ns', 0), section('level', 2), this.check('freeOn', 'any plane'), ...free),
-      this.field('Threshold', make('label', {}, this.check('cutOn', 'show ≥').querySelector('input'), make('span', {}, 'show ≥'), cut, make('span', { id: 'cut-unit' })), cutSlide,
+      this.quantity('Threshold', make('label', {}, this.check('cutOn', 'show ≥').querySelector('input'), make('span', {}, 'show ≥'), cut, make('span', { id: 'cut-unit' })), cutSlide,
                  make('p', { class: 'result', id: 'volume', 'aria-live': 'polite' })),
-      this.field('Isosurfaces', make('label', {}, this.check('isoOn', '').querySelector('input'), make('span', {}, 'at'), isoText)),
+      this.quantity('Isosurfaces', make('label', {}, this.check('isoOn', '').querySelector('input'), make('span', {}, 'at'), isoText)),
       this.field('Layers', ...layer, ...(info.blocks.length > 1 ? [this.check('blocks', 'blocks'), this.slider('explode', 'apart', 0, 1.5, 2)] : []),
                  ...(barriers.length ? [this.check('barriers', 'faults and horizons'), ...barriers] : [])),
       this.field('Blocks', rows(info.blocks.map(({ name, volume }) => [name, volumeText(volume)]))),
@@ -196,6 +203,7 @@ export class Controls {
     byId('iso-text').value = property.classes ? '' : layers.isoLevels().map((value) => Number(value.toPrecision(4))).join(', ');
     byId('cut-slide').value = (toScale(property, state.cut) - low) / (high - low || 1);
     byId('cut-unit').textContent = property.unit;
+    for (const field of this.panel.querySelectorAll('[data-quantity]')) field.hidden = Boolean(property.classes);
     this.drawHistogram(low, high);
     drawLegend(document.querySelector('.legend'), property, layers.anchors(), [low, high]);
     this.showVolume();

@@ -67,7 +67,7 @@ export function drawStrip(box, hole, intervals, property, index, anchors, [low, 
                        svg('title', {}, `${numberText(intervals.depth[i], 6)} ${unit}: ${label}`)));
   }
   box.replaceChildren(
-    make('button', { class: 'close', title: 'Close', onclick: close }, '×'), make('h2', {}, hole.id),
+    make('h2', {}, make('button', { class: 'close', title: 'Close', onclick: close }, '×'), hole.id),
     rows([['length', `${numberText(hole.length, 6)} ${unit}`], ['collar', hole.collar.map((x) => numberText(x, 9)).join(', ')],
           [titleOf(property), `${known} of ${own.length} intervals`]]), drawing);
   box.hidden = false;

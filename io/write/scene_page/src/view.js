@@ -19,7 +19,7 @@ export const painting = {
 const paint = `
   uniform sampler2D map; uniform float low, high, classes, reach, cutoff; uniform vec3 grey;
   vec3 paint(float value, bool known, float far) {
-    if (!known || far >= reach) return grey;
+    if (!known || far >= reach - 1e-4) return grey;
     float t = classes > 0.0 ? (value + 0.5) / classes : high > low ? (value - low) / (high - low) : 0.5;
     return texture2D(map, vec2(clamp(t, 0.0, 1.0), 0.5)).rgb;
   }

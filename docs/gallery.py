@@ -39,6 +39,11 @@ def fracture(folder, picture):
     run(folder, "export", "-q", *SIZE, "--iso", "K=1e-9", twin(folder), picture)
 
 
+def readme(folder, picture):
+    run(folder, "export", "-q", *SIZE, "--iso", "K=1e-9", twin(folder), "Olkiluoto twin.png")
+    (folder / "Olkiluoto twin.png").rename(folder / picture)
+
+
 def page(folder, picture):
     run(folder, "export", "-q", twin(folder), "Olkiluoto twin.html")  # a name becomes the title
     profile = folder / "profile"
@@ -92,13 +97,14 @@ def blocks(folder, picture):
 
 
 def main(names):
-    pictures = {"fracture": fracture, "page": page, "levels": levels, "reach": reach, "rocks": rocks, "blocks": blocks}
+    pictures = {"readme": readme, "fracture": fracture, "page": page, "levels": levels, "reach": reach, "rocks": rocks, "blocks": blocks}
     with tempfile.TemporaryDirectory(prefix="terratet gallery ") as scratch:
         folder = pathlib.Path(scratch)
         for name in names or pictures:
             pictures[name](folder, f"{name}.png")
-            shutil.copy(folder / f"{name}.png", IMAGES / f"gallery-{name}.png")
-            print(f"gallery-{name}.png: {(IMAGES / f'gallery-{name}.png').stat().st_size} bytes")
+            target = IMAGES / ("olkiluoto-twin.png" if name == "readme" else f"gallery-{name}.png")
+            shutil.copy(folder / f"{name}.png", target)
+            print(f"{target.name}: {target.stat().st_size} bytes")
 
 
 if __name__ == "__main__":

@@ -24,12 +24,14 @@ site=$root/data/olkiluoto-twin
   --property K:log10:unit=m/s -s_srs EPSG:3067 -te 525130 6791500 -990 525870 6792500 10 \
   --lmin 20m --lmax 80m --df-max K=1 -tr 10m \
   --overwrite --report "$out/report.json" \
-  "$out/olkiluoto-twin.gpkg" "$out/olkiluoto-twin.vtu" "$out/olkiluoto-twin.glb" "$out/olkiluoto-twin.vdb" \
+  "$out/olkiluoto-twin.html" "$out/olkiluoto-twin.png" "$out/olkiluoto-twin.gpkg" "$out/olkiluoto-twin.vtu" "$out/olkiluoto-twin.glb" "$out/olkiluoto-twin.vdb" \
   "$out/olkiluoto-twin.csv"
 
 cat <<TEXT
 
 What to look at:
+  $out/olkiluoto-twin.html
+      any browser opens it, offline: sections, thresholds, logs, values; $out/olkiluoto-twin.png is its picture
   $out/olkiluoto-twin.vtu
       ParaView (apt-get install paraview): open, Apply, colour by K; Threshold on MaterialIDs shows a fault block
   $out/olkiluoto-twin.glb

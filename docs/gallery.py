@@ -47,10 +47,10 @@ def readme(folder, picture):
 def page(folder, picture):
     run(folder, "export", "-q", twin(folder), "Olkiluoto twin.html")  # a name becomes the title
     profile = folder / "profile"
-    address = (folder / "Olkiluoto twin.html").as_uri() + "#hole=OT-02&cutOn=1&cut=1e-9&pick=525500,6792000,-300"
+    address = (folder / "Olkiluoto twin.html").as_uri() + "#hole=OT-02&cutOn=1&cut=1e-9&isoOn=0&pick=525500,6792000,-300"
     subprocess.run([shutil.which("chromium") or "chromium-browser", "--headless", "--no-sandbox", "--use-gl=angle",
                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars", f"--user-data-dir={profile}",
-                    "--window-size=1120,700", "--virtual-time-budget=30000", f"--screenshot={folder / picture}", address],
+                    "--window-size=1100,680", "--virtual-time-budget=30000", f"--screenshot={folder / picture}", address],
                    check=True, stderr=subprocess.DEVNULL)
 
 

@@ -34,6 +34,14 @@ void Raster::triangle(const std::array<RasterCorner, 3>& corners, double opacity
     if (!(std::abs(area) > 1e-9)) {
         return;
     }
+    // A pixel on an edge belongs to one of the two triangles there, or glass would be twice as thick.
+    const auto owns = [area](const Vec3& from, const Vec3& to) {
+        const double down = area > 0 ? to.y - from.y : from.y - to.y;
+        return down > 0 || (down == 0 && (area > 0 ? to.x < from.x : to.x > from.x));
+    };
+    const bool owns_a = owns(b, c);
+    const bool owns_b = owns(c, a);
+    const bool owns_c = owns(a, b);
     const auto first = [](double low) { return static_cast<std::int64_t>(std::max(0.0, std::ceil(low - 0.5))); };
     const auto last = [](double high, std::uint32_t size) {
         return static_cast<std::int64_t>(std::min(static_cast<double>(size) - 1, std::floor(high - 0.5)));
@@ -47,8 +55,8 @@ void Raster::triangle(const std::array<RasterCorner, 3>& corners, double opacity
             const double px = static_cast<double>(x) + 0.5;
             const double wa = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
             const double wb = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
-            const double wc = 1 - wa - wb;
-            if (wa < 0 || wb < 0 || wc < 0) {
+            const double wc = ((a.x - px) * (b.y - py) - (a.y - py) * (b.x - px)) / area;
+            if (wa < 0 || wb < 0 || wc < 0 || (wa == 0 && !owns_a) || (wb == 0 && !owns_b) || (wc == 0 && !owns_c)) {
                 continue;
             }
             const double depth = wa * a.z + wb * b.z + wc * c.z;

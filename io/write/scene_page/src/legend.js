@@ -27,7 +27,7 @@ export function drawLegend(box, property, anchors, [low, high]) {
   }
   const grey = make('i');
   grey.style.background = 'rgb(199, 201, 207)';
-  parts.push(make('div', {}, grey, 'no value, or beyond the samples'));
+  parts.push(make('div', {}, grey, 'no value or out of reach'));
   box.replaceChildren(...parts);
 }
 

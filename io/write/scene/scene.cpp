@@ -29,11 +29,11 @@ std::vector<double> block_volumes(const SceneCells& cells) {
 
 }  // namespace
 
-Scene make_scene(const ModelView& view, const ExportOptions& options) {
+Scene make_scene(const ModelView& view, const ExportOptions& options, ClippedCells cells) {
     const Model& model = view.model;
     Scene scene{SceneFrame(model, options.enu ? SceneFrame::Axes::enu : SceneFrame::Axes::grid),
                 Coloring(view, options.color_property, options.color_map),
-                scene_cells(view, options.progress),
+                scene_cells(view, options.progress, cells),
                 {},
                 {}};
     report_progress(options.progress, "write scene", 0.2);

@@ -48,7 +48,7 @@ struct Scene {
 /// By default two sections through the middle of the samples and isosurfaces at the quartiles of the coloured property;
 /// in a model without properties the sections show the fault blocks. Throws UsageError for sections, properties or
 /// levels that there are not.
-Scene make_scene(const ModelView& view, const ExportOptions& options);
+Scene make_scene(const ModelView& view, const ExportOptions& options, ClippedCells cells = ClippedCells::mended);
 
 // ---- its pieces
 

@@ -7,8 +7,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include "io/write/clip.hpp"
-
 namespace terratet {
 namespace {
 
@@ -83,9 +81,8 @@ double SceneCells::volume(std::size_t cell) const {
     return six / 6 / model->frame.z_scale;
 }
 
-SceneCells scene_cells(const ModelView& view, const Progress& progress) {
-    SceneCells cells{
-        &view.model, clip_to_extent(view, ClippedCells::mended, progress), {}, {}, {}, view.cells.region_name};
+SceneCells scene_cells(const ModelView& view, const Progress& progress, ClippedCells which) {
+    SceneCells cells{&view.model, clip_to_extent(view, which, progress), {}, {}, {}, view.cells.region_name};
     for (std::size_t p = 0; p < view.model.properties.size(); ++p) {
         cells.values.push_back(cells.mesh.values(view.model, p));
     }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/write/clip.hpp"
 #include "io/write/clipped_mesh.hpp"
 #include "tess/cut_cells.hpp"
 
@@ -27,8 +28,9 @@ struct SceneCells {
     [[nodiscard]] double volume(std::size_t cell) const;  ///< in the cube of the model's unit
 };
 
-/// The cells that a clipped VTU has.
-SceneCells scene_cells(const ModelView& view, const Progress& progress = {});
+/// The cells that a clipped VTU has, or the tessellation's own as the extent's planes cut them: for values and volumes
+/// that are the tessellation's to the last digit.
+SceneCells scene_cells(const ModelView& view, const Progress& progress = {}, ClippedCells cells = ClippedCells::mended);
 
 /// A place in a cell, by barycentric weights of up to four of the mesh's points.
 struct CellPlace {

@@ -275,7 +275,7 @@ OutputRecord write_html(const ModelView& view, const std::string& path, const Ex
     own.enu = false;  // the page speaks of grid coordinates
     own.title = scene_title(options, path);
     own.picture_size = {1120, 700};
-    const Scene scene = make_scene(view, own);
+    const Scene scene = make_scene(view, own, ClippedCells::as_cut);
     report_progress(options.progress, "write html", 0.5);
     std::string holes;
     for (const Borehole& hole : view.model.boreholes) {

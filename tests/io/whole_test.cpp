@@ -59,6 +59,7 @@ std::vector<Writer> writers() {
                            options.overwrite = true;
                            options.compress = std::string(name).starts_with("compressed");
                            options.voxel_size = {20, 20, 20};
+                           options.picture_size = {400, 300};
                            export_model({grid.model, grid.mesh, grid.cells}, path, options);
                        }});
     }

@@ -274,7 +274,7 @@ OutputRecord write_html(const ModelView& view, const std::string& path, const Ex
     ExportOptions own = options;
     own.enu = false;  // the page speaks of grid coordinates
     own.title = scene_title(options, path);
-    own.picture_size = {1120, 700};
+    own.picture_size = {std::min(options.picture_size[0], 1120U), std::min(options.picture_size[1], 700U)};
     const Scene scene = make_scene(view, own, ClippedCells::as_cut);
     report_progress(options.progress, "write html", 0.5);
     std::string holes;

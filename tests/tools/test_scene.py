@@ -83,7 +83,9 @@ class Page(Case):
         above, whole = self.volume_above(property_name, cut, *options)
         self.assertGreater(above, 0.01 * whole)
         self.assertLess(above, 0.99 * whole)
-        self.assertAlmostEqual(seen["volume"]["value"] / above, 1, delta=1e-3)
+        self.assertAlmostEqual(seen["volume"]["value"] / above, 1, delta=1e-5)
+        told = csv.DictReader(io.StringIO(self.succeed("query", "m.gpkg", "region", "--above", f"{property_name}={cut}").stdout))
+        self.assertAlmostEqual(sum(float(row["volume_above"]) for row in told) / above, 1, delta=1e-5)
         self.assertIn("extrapolation", seen["property_legend"])
         return seen
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "io/write/clip.hpp"
 #include "tess/cut_cells.hpp"
 #include "tess/error.hpp"
 #include "tess/model/regions.hpp"
@@ -14,74 +14,6 @@
 
 namespace terratet::tools {
 namespace {
-
-/// A tetrahedron with a level at its corners.
-struct Piece {
-    std::array<Vec3, 4> corners;
-    std::array<double, 4> level;
-};
-
-double volume(const Piece& piece) {
-    const auto& c = piece.corners;
-    return std::abs(dot(c[1] - c[0], cross(c[2] - c[0], c[3] - c[0]))) / 6;
-}
-
-/// A place on the edge from corner i to j where the plane passes, with its level.
-std::pair<Vec3, double> between(const Piece& piece, const std::array<double, 4>& d, std::size_t i, std::size_t j) {
-    const double t = d[i] / (d[i] - d[j]);
-    return {piece.corners[i] + t * (piece.corners[j] - piece.corners[i]),
-            piece.level[i] + t * (piece.level[j] - piece.level[i])};
-}
-
-/// Appends the parts of it on the plane's positive side: one tetrahedron, or the three of a prism.
-void clip(const Piece& piece, const CutPlane& plane, std::vector<Piece>& out) {
-    std::array<double, 4> d{};
-    std::vector<std::size_t> in;
-    std::vector<std::size_t> off;
-    for (std::size_t i = 0; i < 4; ++i) {
-        d[i] = plane.distance(piece.corners[i]);
-        (d[i] >= 0 ? in : off).push_back(i);
-    }
-    const auto corner = [&](std::size_t i) { return std::pair(piece.corners[i], piece.level[i]); };
-    using End = std::pair<Vec3, double>;
-    const auto add = [&](const End& a, const End& b, const End& c, const End& e) {
-        out.push_back({{a.first, b.first, c.first, e.first}, {a.second, b.second, c.second, e.second}});
-    };
-    const auto prism = [&](const std::array<End, 3>& top, const std::array<End, 3>& bottom) {
-        add(top[0], top[1], top[2], bottom[0]);
-        add(top[1], top[2], bottom[0], bottom[1]);
-        add(top[2], bottom[0], bottom[1], bottom[2]);
-    };
-    if (off.empty()) {
-        out.push_back(piece);
-    } else if (in.size() == 1) {
-        add(corner(in[0]), between(piece, d, in[0], off[0]), between(piece, d, in[0], off[1]),
-            between(piece, d, in[0], off[2]));
-    } else if (in.size() == 2) {
-        prism({corner(in[0]), between(piece, d, in[0], off[0]), between(piece, d, in[0], off[1])},
-              {corner(in[1]), between(piece, d, in[1], off[0]), between(piece, d, in[1], off[1])});
-    } else if (in.size() == 3) {
-        prism({corner(in[0]), corner(in[1]), corner(in[2])},
-              {between(piece, d, in[0], off[0]), between(piece, d, in[1], off[0]), between(piece, d, in[2], off[0])});
-    }
-}
-
-/// The part within the box.
-std::vector<Piece> clipped(const Piece& piece, const Box3& box) {
-    std::vector<Piece> pieces{piece};
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3 normal;
-        normal[axis] = 1;
-        for (const CutPlane& plane : {CutPlane{normal, box.lo[axis]}, CutPlane{-normal, -box.hi[axis]}}) {
-            std::vector<Piece> next;
-            for (const Piece& part : pieces) {
-                clip(part, plane, next);
-            }
-            pieces = std::move(next);
-        }
-    }
-    return pieces;
-}
 
 struct Cut {
     std::size_t property;
@@ -138,26 +70,28 @@ void query_regions(const ModelSnapshot& opened, const QueryArguments& a, RowSink
     }
     const Model& model = opened.model();
     const CellTable& table = opened.cells();
-    const TetMesh& mesh = opened.mesh();
     const auto cut = cut_asked(a.above, model);
     std::vector<double> volumes(static_cast<std::size_t>(table.region_count), 0);
     std::vector<double> above(volumes.size(), 0);
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        if (table.region[c] < 0) {
+    // Cut at the extent: a cell whose middle is outside has parts of a block within as well.
+    const ClippedMesh clipped = clip_to_extent({model, opened.mesh(), table}, ClippedCells::as_cut);
+    std::vector<double> level;
+    for (const double value : cut ? clipped.values(model, cut->property) : std::vector<double>{}) {
+        level.push_back(to_scale(model.properties[cut->property], value));
+    }
+    for (std::size_t c = 0; c < clipped.cells.size(); ++c) {
+        if (clipped.region[c] < 0 || table.beyond[clipped.parent[c]] != 0) {
             continue;
         }
-        Piece cell;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t v = mesh.cells[c][k];
-            cell.corners[k] = mesh.points[v];
-            cell.level[k] =
-                cut ? to_scale(model.properties[cut->property], model.vertex_values.values[cut->property][v]) : 0;
-        }
-        const auto region = static_cast<std::size_t>(table.region[c]);
-        for (const Piece& piece : clipped(cell, model.domain.extent)) {
-            const double size = volume(piece) / model.frame.z_scale;
-            volumes[region] += size;
-            const double share = cut ? share_above(piece.level, cut->level) : 0;
+        const auto& v = clipped.cells[c];
+        const Vec3& d = clipped.points[v[3]];
+        const double six =
+            std::abs(dot(clipped.points[v[0]] - d, cross(clipped.points[v[1]] - d, clipped.points[v[2]] - d)));
+        const double size = six / 6 / model.frame.z_scale;
+        const auto region = static_cast<std::size_t>(clipped.region[c]);
+        volumes[region] += size;
+        if (cut) {
+            const double share = share_above({level[v[0]], level[v[1]], level[v[2]], level[v[3]]}, cut->level);
             above[region] += std::isnan(share) ? 0 : share * size;
         }
     }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "tess/base/box_tree.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
@@ -26,17 +26,8 @@ class SeedTree {
     [[nodiscard]] const Vec3& point(std::uint32_t i) const { return points_[i]; }
 
   private:
-    struct Node {
-        Box3 box;
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint32_t right = 0;  ///< the second child; the first follows at once; 0: a leaf
-    };
-    void split(std::uint32_t begin, std::uint32_t end);
-
     std::span<const Vec3> points_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    BoxTree<std::uint32_t> tree_;
 };
 
 }  // namespace terratet

@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "tess/base/random_share.hpp"
+
 namespace terratet {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr double axis_cells = 1 << axis_bits;
 
 std::uint64_t pack(const std::array<std::uint32_t, 3>& cell) {
     return (std::uint64_t{cell[2]} << (2 * axis_bits)) | (std::uint64_t{cell[1]} << axis_bits) | cell[0];
-}
-
-std::uint64_t mixed(std::uint64_t key) {  // splitmix64's finaliser
-    key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    key = (key ^ (key >> 27)) * 0x94d049bb133111ebULL;
-    return key ^ (key >> 31);
 }
 
 double area(const TriangleCorners& t) {
@@ -157,7 +153,7 @@ void TriangleGrid::for_each_cell(const TriangleCorners& t, double reach, Visit&&
 
 std::size_t TriangleGrid::slot_of(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = mixed(key) & mask;
+    std::size_t at = mixed_key(key) & mask;
     while (slots_[at].key != key && slots_[at].key != unused) {
         at = (at + 1) & mask;
     }

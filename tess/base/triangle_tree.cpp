@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "tess/base/box_tree.hpp"
 #include "tess/base/sight.hpp"
 
 namespace terratet {
@@ -20,7 +21,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Vec3, 3>;
 
 constexpr std::uint32_t leaf_size = 2;
-constexpr std::size_t deepest = 64;  // more than a tree of halves
 
 Kernel::Point_3 point(const Vec3& p) {
     return {p.x, p.y, p.z};
@@ -28,10 +28,6 @@ Kernel::Point_3 point(const Vec3& p) {
 
 Kernel::Triangle_3 triangle(const Corners& c) {
     return {point(c[0]), point(c[1]), point(c[2])};
-}
-
-Box3 box_of(const Corners& c) {
-    return bounding_box(c);
 }
 
 double squared_distance_to(const Box3& box, const Vec3& p) {
@@ -85,64 +81,21 @@ std::vector<Corners> with_area(std::span<const Vec3> points, std::span<const Tri
 }  // namespace
 
 struct TriangleTree::Impl {
-    struct Node {
-        Box3 box;
-        std::uint32_t begin, end;
-        std::uint32_t right;  ///< the second child; the first follows at once; 0: a leaf
-    };
-
-    explicit Impl(std::vector<Corners> all) : triangles(std::move(all)), slab(triangles) {
-        nodes.reserve(2 * triangles.size());
-        split(0, static_cast<std::uint32_t>(triangles.size()));
-    }
-
-    void split(std::uint32_t begin, std::uint32_t end) {
-        const auto here = nodes.size();
-        Box3 box;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const Box3 own = box_of(triangles[i]);
-            box.extend(own.lo);
-            box.extend(own.hi);
-        }
-        nodes.push_back({box, begin, end, 0});
-        if (end - begin <= leaf_size) {
-            return;
-        }
-        const Vec3 size = box.size();
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const std::uint32_t middle = begin + (end - begin) / 2;
-        const auto key = [axis](const Corners& c) { return c[0][axis] + c[1][axis] + c[2][axis]; };
-        std::nth_element(triangles.begin() + begin, triangles.begin() + middle, triangles.begin() + end,
-                         [&](const Corners& a, const Corners& b) { return key(a) < key(b); });
-        split(begin, middle);
-        nodes[here].right = static_cast<std::uint32_t>(nodes.size());
-        split(middle, end);
-    }
+    explicit Impl(std::vector<Corners> all)
+        : slab(all),
+          tree(
+              std::move(all), leaf_size,
+              [](auto& node, const Corners& c) {
+                  for (const Vec3& p : c) {
+                      node.box.extend(p);
+                  }
+              },
+              [](const Corners& c, int axis) { return c[0][axis] + c[1][axis] + c[2][axis]; }) {}
 
     /// Calls test(triangle) at leaves that `misses` lets by, until one is true.
     template <class Misses, class Test>
     [[nodiscard]] bool any(const Misses& misses, const Test& test) const {
-        std::array<std::uint32_t, deepest> waiting;
-        std::size_t count = 0;
-        waiting[count++] = 0;
-        while (count > 0) {
-            const std::uint32_t at = waiting[--count];
-            const Node& node = nodes[at];
-            if (misses(node.box)) {
-                continue;
-            }
-            if (node.right != 0) {
-                waiting[count++] = node.right;
-                waiting[count++] = at + 1;
-                continue;
-            }
-            for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                if (test(triangles[i])) {
-                    return true;
-                }
-            }
-        }
-        return false;
+        return tree.any([&](const auto& node) { return !misses(node.box); }, test);
     }
 
     struct Nearest {
@@ -191,9 +144,8 @@ struct TriangleTree::Impl {
         return {};
     }
 
-    std::vector<Corners> triangles;  ///< in the order of the leaves
     Slab slab;
-    std::vector<Node> nodes;
+    BoxTree<Corners> tree;
 };
 
 TriangleTree::TriangleTree(std::span<const Vec3> points, std::span<const Triangle> given) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "tess/base/random_share.hpp"
 #include "tess/mesh/delaunay.hpp"
 #include "tess/refine/insertion_rule.hpp"
 
@@ -49,7 +50,7 @@ class BallPoints {
   public:
     explicit BallPoints(std::span<const std::uint64_t> ids) {
         for (const std::uint64_t id : ids) {
-            state_ = mix(state_ ^ id);
+            state_ = mixed_key(state_ ^ id);
         }
     }
     Vec3 next() {
@@ -62,14 +63,8 @@ class BallPoints {
     }
 
   private:
-    static std::uint64_t mix(std::uint64_t x) {  // the finaliser of SplitMix64 (Steele, Lea, Flood 2014)
-        x += 0x9e3779b97f4a7c15U;
-        x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-        x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-        return x ^ (x >> 31U);
-    }
     double uniform() {
-        state_ = mix(state_);
+        state_ = mixed_key(state_);
         return static_cast<double>(state_ >> 11U) * 0x1p-52 - 1;
     }
     std::uint64_t state_ = 0;

@@ -4,10 +4,10 @@
 /// \file
 /// Places to look for leaks at, and which of them a ball holds.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "tess/base/box_tree.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
@@ -26,45 +26,24 @@ class LeakProbes {
     /// Is the test true of one of those in the ball? Asked until it is.
     template <class Test>
     [[nodiscard]] bool any_within(const Vec3& center, double radius, const Test& test) const {
-        std::array<std::uint32_t, deepest> waiting{};
-        std::size_t count = nodes_.empty() ? 0 : 1;
-        while (count > 0) {
-            const std::uint32_t at = waiting[--count];
-            const Node& node = nodes_[at];
-            if (squared_distance(center, node.box.clamped(center)) >= radius * radius) {
-                continue;
-            }
-            if (node.right != 0) {
-                waiting[count++] = node.right;
-                waiting[count++] = at + 1;
-                continue;
-            }
-            for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                if (retired_[i] == 0 && squared_distance(probes_[i].place, center) < radius * radius &&
-                    test(probes_[i])) {
-                    return true;
-                }
-            }
-        }
-        return false;
+        const double square = radius * radius;
+        return tree_.any([&](const auto& node) { return squared_distance(center, node.box.clamped(center)) < square; },
+                         [&](const LeakProbe& probe) {
+                             return retired_[number_of(probe)] == 0 && squared_distance(probe.place, center) < square &&
+                                    test(probe);
+                         });
     }
 
     /// Those in the ball are out of the question from now on.
     void retire_within(const Vec3& center, double radius);
 
   private:
-    static constexpr std::size_t deepest = 64;  // more than a tree of halves
-    struct Node {
-        Box3 box;
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint32_t right = 0;  ///< the second child; the first follows at once; 0: a leaf
-    };
-    void split(std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] std::size_t number_of(const LeakProbe& probe) const {
+        return static_cast<std::size_t>(&probe - tree_.items().data());
+    }
 
-    std::vector<LeakProbe> probes_;
-    std::vector<char> retired_;
-    std::vector<Node> nodes_;
+    BoxTree<LeakProbe> tree_;
+    std::vector<char> retired_;  ///< in the order of the tree's items
 };
 
 }  // namespace terratet

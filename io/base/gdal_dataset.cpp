@@ -174,6 +174,18 @@ OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope
     return *layer;
 }
 
+std::string other_layers(GDALDataset& dataset, OGRLayer& layer, const Source& source) {
+    if (!source.layer.empty() || !source.sql.empty() || dataset.GetLayerCount() < 2) {
+        return "";
+    }
+    std::string others;
+    for (OGRLayer* const other : dataset.GetLayers()) {
+        others += other == &layer ? "" : (others.empty() ? "" : ", ") + to_utf8(other->GetName());
+    }
+    return "of " + std::to_string(dataset.GetLayerCount()) + " layers the first one, " + to_utf8(layer.GetName()) +
+           ", is read; the others are " + others + " (layer= names one)";
+}
+
 Crs crs_of(OGRLayer& layer) {
     const OGRSpatialReference* const reference = layer.GetSpatialRef();
     char* wkt = nullptr;

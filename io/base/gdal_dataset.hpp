@@ -38,6 +38,9 @@ struct ResultSetReleaser {
 using ResultSet = std::unique_ptr<OGRLayer, ResultSetReleaser>;
 OGRLayer& open_layer(GDALDataset& dataset, const Source& source, const GdalScope& scope, ResultSet& result_set);
 
+/// What to say when the layer is the first of several and nobody named it: the others. Empty otherwise.
+std::string other_layers(GDALDataset& dataset, OGRLayer& layer, const Source& source);
+
 /// What the layer states; empty when that is nothing.
 Crs crs_of(OGRLayer& layer);
 

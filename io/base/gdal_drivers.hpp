@@ -13,8 +13,8 @@ constexpr std::array<const char*, 14> vector_drivers{
     "CSV",    "XLSX",       "XLS",     "ODS",        "GPKG",        "ESRI Shapefile", "PostgreSQL",
     "SQLite", "FlatGeobuf", "GeoJSON", "GeoJSONSeq", "OpenFileGDB", "MapInfo File",   nullptr};
 
-constexpr std::array<const char*, 13> raster_drivers{"GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
+constexpr std::array<const char*, 14> raster_drivers{"GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
                                                      "HFA",   "SRTMHGT", "DTED",           "GSAG", "GSBG",
-                                                     "GS7BG", "netCDF",  nullptr};
+                                                     "GS7BG", "netCDF",  "ZMap",           nullptr};
 
 }  // namespace terratet

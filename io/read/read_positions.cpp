@@ -92,12 +92,7 @@ PositionColumns choose_columns(const Table& table, const ColumnNames& names, Dia
     return columns;
 }
 
-/// Headers of heights that count downwards, and of such as surely count upwards.
-bool names_depth(const std::string& column) {
-    const std::string name = normal_header(column);
-    return name.find("tvd") != std::string::npos || name.find("depth") != std::string::npos || name == "subsea";
-}
-
+/// Headers of heights that surely count upwards.
 bool names_height(const std::string& column) {
     const std::string name = normal_header(column);
     return std::ranges::any_of(std::array{"elev", "height", "altit", "masl", "amsl", "hoehe", "ansatz", "cota", "rl"},

@@ -68,11 +68,12 @@ RawSurfaces read_surface_file(Source source, SurfaceKind kind, const SiteInputs&
         source.srs = inputs.source_crs;
     }
     Diagnostics said;
-    RawSurfaces raw = read_surfaces(source, kind, inputs.columns, said);
+    const SurfaceOptions options{inputs.z_positive, inputs.fault_depth};
+    RawSurfaces raw = read_surfaces(source, kind, inputs.columns, said, options);
     if (raw.crs.empty() && source.srs.empty() && !inputs.source_crs.empty()) {
         source.srs = inputs.source_crs;
         said = {};
-        raw = read_surfaces(source, kind, inputs.columns, said);
+        raw = read_surfaces(source, kind, inputs.columns, said, options);
     }
     raw.crs = resolved_crs(source, raw.crs, inputs.source_crs);
     std::ranges::move(said.rejected, std::back_inserter(diagnostics.rejected));

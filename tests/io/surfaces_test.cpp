@@ -168,13 +168,13 @@ TEST_CASE("Layers that hold no surface are refused, saying what is needed") {
     CHECK_THROWS_WITH(read(write_layer(folder, "flat.gpkg", "GPKG", {{"D", "POLYGON ((0 0,1 0,1 1,0 0))"}})),
                       Contains("flat.gpkg") && Contains("no z"));
     CHECK_THROWS_WITH(read(write_layer(folder, "line.gpkg", "GPKG", {{"P", "LINESTRING Z (0 0 0,1 1 1)"}})),
-                      Contains("no polygon"));
+                      Contains("no column says their dip"));
     CHECK_THROWS_WITH(read((folder / "flat.gpkg") + ",layer=none"), Contains("no layer none") && Contains("faults"));
     CHECK_THROWS_WITH(read(folder / "nothing.gpkg"), Contains("nothing.gpkg"));
     put(folder / "f.dxf", "anything");
-    CHECK_THROWS_WITH(read(folder / "f.dxf"), Contains("DXF is not read") && Contains("hang") && Contains("ogr2ogr"));
+    CHECK_THROWS_WITH(read(folder / "f.dxf"), Contains("no 3DFACE and no polyface mesh"));
     put(folder / "drawing", "999\nby hand\n  0\r\nSECTION\r\n  2\nENTITIES\n");
-    CHECK_THROWS_WITH(read(folder / "drawing"), Contains("DXF is not read"));
+    CHECK_THROWS_WITH(read(folder / "drawing"), Contains("no 3DFACE and no polyface mesh"));
     put(folder / "junk.ts", std::string("\x01\x02\x03\x00junk", 8));
     CHECK_THROWS_AS(read(folder / "junk.ts"), InputError);
 }

@@ -271,7 +271,7 @@ TEST_CASE("Files that are no TSurf are refused in one clear line") {
     CHECK_THROWS_WITH(read("/nowhere/f.ts"), Contains("/nowhere/f.ts") && Contains("does it exist"));
     CHECK_THROWS_WITH(read("/tmp"), Contains("it is a folder"));
     CHECK_THROWS_WITH(parse(""), Contains("no usable GOCAD TSurf"));
-    CHECK_THROWS_WITH(parse("GOCAD PLine 1\nILINE\nVRTX 1 0 0 0\nEND\n"), Contains("only PLine"));
+    CHECK_THROWS_WITH(parse("GOCAD PLine 1\nILINE\nVRTX 1 0 0 0\nEND\n"), Contains("span no surface"));
     CHECK_THROWS_WITH(parse(object("", "")), Contains("no usable"));
     CHECK_THROWS_WITH(parse("GOCAD TSurf 1\nVRTX 1 " + std::string(3 << 20, '7')),
                       Contains("line 2") && Contains("1 MiB"));

@@ -7,7 +7,9 @@
 
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/surfaces/graph_check.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
+#include "io/read/surfaces/sticks.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -19,6 +21,7 @@ using PointsByName = std::map<std::string, std::vector<Vec3>>;
 struct Coordinates {
     bool geometry = false;
     int x = -1, y = -1, z = -1;
+    bool down = false;  ///< z counts so
 };
 
 bool is_overridden(const ColumnNames& columns, const char* meaning) {
@@ -56,12 +59,13 @@ std::optional<Vec3> position(const Table& table, const Coordinates& where, std::
         const auto value = column < 0 ? std::nullopt : parse_number(table.cells[static_cast<std::size_t>(column)][row]);
         return value.value_or(std::nan(""));
     };
+    const double height = where.down ? -number(where.z) : number(where.z);
     if (!where.geometry) {
-        return Vec3{number(where.x), number(where.y), number(where.z)};
+        return Vec3{number(where.x), number(where.y), height};
     }
     std::optional<Vec3> point = table.points[row];
     if (point && std::isnan(point->z)) {
-        point->z = number(where.z);
+        point->z = height;
     }
     return point;
 }
@@ -88,6 +92,40 @@ PointsByName group(const Table& table, const Coordinates& where, int name_column
     return groups;
 }
 
+int stick_column_of(const Table& table) {
+    for (const char* name : {"stick", "stickid", "stickno", "sticknr", "sticknumber", "faultstick", "segid"}) {
+        const auto found = std::ranges::find(table.columns, name, normal_header);
+        if (found != table.columns.end()) {
+            return static_cast<int>(found - table.columns.begin());
+        }
+    }
+    return -1;
+}
+
+/// Sticks by fault, in the order in which they first come; points in that of the rows.
+std::map<std::string, std::vector<std::vector<Vec3>>> sticks_of(const Table& table, const Coordinates& where,
+                                                                int name_column, const std::string& default_name,
+                                                                int stick_column) {
+    std::map<std::string, std::vector<std::vector<Vec3>>> result;
+    std::map<std::pair<std::string, std::string>, std::size_t> places;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const std::optional<Vec3> point = position(table, where, row);
+        if (!point || !is_acceptable(*point)) {
+            continue;  // rejected when points were grouped
+        }
+        const std::string name(name_column < 0 ? default_name
+                                               : table.cells[static_cast<std::size_t>(name_column)][row]);
+        const std::string stick(table.cells[static_cast<std::size_t>(stick_column)][row]);
+        auto& sticks = result[name];
+        const auto [entry, added] = places.emplace(std::pair(name, stick), sticks.size());
+        if (added) {
+            sticks.emplace_back();
+        }
+        sticks[entry->second].push_back(*point);
+    }
+    return result;
+}
+
 /// A column of row numbers under a heading like "id" passes for names; but then no name has three points.
 bool names_nothing(const PointsByName& groups) {
     std::size_t points = 0, largest = 0;
@@ -99,7 +137,7 @@ bool names_nothing(const PointsByName& groups) {
 }
 
 /// Longitude and latitude cannot be weighed against metres of height: a plane is fitted in metres round the middle.
-Surface triangulate_geographic(const std::string& name, const std::vector<Vec3>& points) {
+Surface triangulate_geographic(const std::string& name, const std::vector<Vec3>& points, bool& graph) {
     constexpr double metres_per_degree = 111319.49;
     const Vec3 middle = bounding_box(points).center();
     const double shrink = std::max(std::cos(middle.y * std::numbers::pi / 180), 1e-3);
@@ -114,6 +152,7 @@ Surface triangulate_geographic(const std::string& name, const std::vector<Vec3>&
         metric.push_back(m);
     }
     Surface surface = triangulate_in_best_fit_plane(name, std::move(metric));
+    graph = is_graph(surface);
     for (Vec3& p : surface.vertices) {
         p = original.at(p);
     }
@@ -123,12 +162,18 @@ Surface triangulate_geographic(const std::string& name, const std::vector<Vec3>&
 }  // namespace
 
 RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const ColumnNames& columns,
-                              Diagnostics& diagnostics) {
+                              const SurfaceOptions& options, Diagnostics& diagnostics) {
     const Table table = read_table(source);
     for (const std::string& note : table.notes) {
         diagnostics.note(note);
     }
-    const Coordinates where = find_coordinates(table, columns);
+    Coordinates where = find_coordinates(table, columns);
+    const std::string z_name = where.z < 0 ? "" : table.columns[static_cast<std::size_t>(where.z)];
+    if (options.z_positive == ZPositive::automatic && names_depth(z_name)) {
+        where.down = true;
+        diagnostics.note(table.file + ": column " + z_name +
+                         " is read as positive downwards, by its name (`z_positive` up says otherwise)");
+    }
     const std::string default_name = to_utf8(source.layer.empty() ? CPLGetBasename(source.path.c_str()) : source.layer);
     const int name_column = find_column(table, Meaning::name, columns);
     Rejections rejections(diagnostics, table.file);
@@ -144,11 +189,30 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
     }
 
     RawSurfaces result;
+    result.z_stated = where.down;
     result.crs = where.geometry ? table.crs : Crs{};
     const bool geographic = source.srs.empty() ? result.crs.geographic : parse_crs(source.srs).geographic;
+    const int stick_column = stick_column_of(table);
+    std::map<std::string, std::vector<std::vector<Vec3>>> sticks;
+    if (stick_column >= 0) {
+        sticks = sticks_of(table, where, name_column, default_name, stick_column);
+        diagnostics.note(table.file + ": its points are read as sticks, by column " +
+                         table.columns[static_cast<std::size_t>(stick_column)]);
+    }
     for (const auto& [name, points] : groups) {
-        Surface surface =
-            geographic ? triangulate_geographic(name, points) : triangulate_in_best_fit_plane(name, points);
+        bool graph = true;
+        Surface surface = stick_column >= 0 ? surface_of_sticks(name, std::move(sticks[name]))
+                          : geographic      ? triangulate_geographic(name, points, graph)
+                                            : triangulate_in_best_fit_plane(name, points);
+        graph = graph && (stick_column >= 0 || geographic || is_graph(surface));
+        if (!graph) {
+            rejections.add(0, [&] {
+                return "\"" + name + "\": its " + std::to_string(points.size()) +
+                       " points are no graph over their plane: they fill a volume, or the sheet lies over itself; give "
+                       "triangles instead";
+            });
+            continue;
+        }
         if (surface.triangles.empty()) {
             rejections.add(0, [&] {
                 return "\"" + name + "\": " + std::to_string(points.size()) +
@@ -156,7 +220,7 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
             });
             continue;
         }
-        if (surface.vertices.size() < points.size()) {
+        if (stick_column < 0 && surface.vertices.size() < points.size()) {
             diagnostics.note(table.file + ": \"" + name +
                              "\": " + std::to_string(points.size() - surface.vertices.size()) + " of " +
                              std::to_string(points.size()) + " points coincide with others and were left out");

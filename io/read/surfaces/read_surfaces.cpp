@@ -4,75 +4,82 @@
 
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/library_failure.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/meshes/read_mesh.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-/// A drawing begins with the group code 0 and SECTION, after comments (code 999), or with the binary format's
-/// signature.
-bool is_dxf(const std::string& path) {
-    if (EQUAL(CPLGetExtension(path.c_str()), "dxf")) {
-        return true;
-    }
-    try {
-        LineReader reader(path);
-        std::string_view code, value;
-        while (reader.next(code) && trimmed(code) == "999" && reader.next(value)) {
-        }
-        if (code.starts_with("AutoCAD Binary DXF")) {
-            return true;
-        }
-        return trimmed(code) == "0" && reader.next(value) && trimmed(value) == "SECTION";
-    } catch (const InputError&) {
-        return false;
-    }
-}
+enum class Held { points, lines, polygons };
 
-/// Points, or records without geometry, which may have their coordinates in columns; what is neither are surfaces.
-bool holds_points(OGRLayer& layer) {
+/// Records without geometry may have their coordinates in columns; what is neither point nor line are surfaces.
+Held held_by(OGRLayer& layer) {
     OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
     if (type == wkbUnknown) {
         const OGRFeatureUniquePtr first{layer.GetNextFeature()};
         const OGRGeometry* const geometry = first ? first->GetGeometryRef() : nullptr;
         type = geometry ? wkbFlatten(geometry->getGeometryType()) : wkbNone;
     }
-    return type == wkbNone || type == wkbPoint || type == wkbMultiPoint;
+    if (type == wkbNone || type == wkbPoint || type == wkbMultiPoint) {
+        return Held::points;
+    }
+    return type == wkbLineString || type == wkbMultiLineString ? Held::lines : Held::polygons;
 }
 
-bool holds_points(const Source& source) {
+Held held_by(const Source& source, Diagnostics& diagnostics) {
     const GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     ResultSet result_set;
-    return holds_points(open_layer(*dataset, source, scope, result_set));
+    OGRLayer& layer = open_layer(*dataset, source, scope, result_set);
+    const Held held = held_by(layer);
+    if (const std::string note = other_layers(*dataset, layer, source); held != Held::points && !note.empty()) {
+        diagnostics.note(source.describe() + ": " + note);
+    }
+    return held;
 }
 
-RawSurfaces read_any(const Source& source, SurfaceKind kind, const ColumnNames& columns, Diagnostics& diagnostics) {
+RawSurfaces read_any(const Source& source, SurfaceKind kind, const ColumnNames& columns, const SurfaceOptions& options,
+                     Diagnostics& diagnostics) {
     if (is_gocad(source.path)) {
         return read_tsurf(source, kind, diagnostics);
+    }
+    if (!is_connection(source.path)) {
+        if (const auto format = mesh_format(source.path)) {
+            return {read_mesh(source.path, *format, kind, diagnostics), {}};
+        }
     }
     if (is_raster(source.path)) {
         return read_raster_surface(source, kind, diagnostics);
     }
-    if (is_dxf(source.path)) {
-        throw InputError(
-            source.path +
-            ": DXF is not read here, since GDAL's reader of it can hang on a damaged file; convert a drawing "
-            "you trust with: ogr2ogr faults.gpkg " +
-            CPLGetFilename(source.path.c_str()));
+    switch (held_by(source, diagnostics)) {
+        case Held::points:
+            return read_fault_points(source, kind, columns, options, diagnostics);
+        case Held::lines:
+            return read_traces(source, kind, columns, options, diagnostics);
+        case Held::polygons:
+            break;
     }
-    return holds_points(source) ? read_fault_points(source, kind, columns, diagnostics)
-                                : read_ogr_surfaces(source, kind, columns, diagnostics);
+    return read_ogr_surfaces(source, kind, columns, diagnostics);
 }
 
 }  // namespace
 
-RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
-                          Diagnostics& diagnostics) {
-    return naming_file(source.describe(), [&] { return read_any(source, kind, columns, diagnostics); });
+RawSurfaces read_surfaces(const Source& source, SurfaceKind kind, const ColumnNames& columns, Diagnostics& diagnostics,
+                          const SurfaceOptions& options) {
+    RawSurfaces raw =
+        naming_file(source.describe(), [&] { return read_any(source, kind, columns, options, diagnostics); });
+    if (options.z_positive == ZPositive::down && !raw.z_stated) {
+        for (Surface& surface : raw.surfaces) {
+            std::ranges::for_each(surface.vertices, [](Vec3& p) { p.z = -p.z; });
+        }
+        raw.z_stated = true;
+    }
+    return raw;
 }
 
 }  // namespace terratet

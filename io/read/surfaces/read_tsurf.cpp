@@ -28,6 +28,7 @@
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
 #include "io/read/surfaces/gocad_words.hpp"
+#include "io/read/surfaces/graph_check.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 
@@ -52,7 +53,7 @@ class Parser {
     std::vector<Surface> parse();
 
   private:
-    enum class Where { outside, tsurf, other_object };
+    enum class Where { outside, tsurf, points, other_object };
 
     void line(std::string_view text);
     void begin_object(std::string_view rest);
@@ -64,6 +65,7 @@ class Parser {
     void atom(std::string_view rest);
     void triangle(std::string_view rest);
     void end_face();
+    void end_points();
     void axis_units(std::string_view rest);
     void reject(const char* what, std::string_view rest) {
         rejections_.add(number_, [&] { return std::string(what) + ": \"" + excerpt(trimmed(rest)) + "\""; });
@@ -218,12 +220,12 @@ void Parser::header(std::string_view text) {
 }
 
 void Parser::begin_object(std::string_view rest) {
-    if (where_ == Where::tsurf) {
+    if (where_ == Where::tsurf || where_ == Where::points) {
         notes_.insert("an object ends without END");
         end_object();
     }
     const std::string_view kind = next_word(rest);
-    where_ = kind == "TSurf" ? Where::tsurf : Where::other_object;
+    where_ = kind == "TSurf" ? Where::tsurf : kind == "VSet" || kind == "PLine" ? Where::points : Where::other_object;
     if (where_ == Where::other_object) {
         other_kinds_.insert(excerpt(kind));
     }
@@ -245,8 +247,28 @@ void Parser::end_object() {
             surfaces_.push_back(std::move(surface_));
         }
     }
+    if (where_ == Where::points) {
+        end_points();
+    }
     where_ = Where::outside;
     in_block_ = in_header_ = in_system_ = false;
+}
+
+/// Points of a VSet or of a PLine's lines, triangulated in their plane.
+void Parser::end_points() {
+    Surface surface = triangulate_in_best_fit_plane(surface_.name, std::move(surface_.vertices));
+    const bool graph = is_graph(surface);
+    if (surface.triangles.empty() || !graph) {
+        return rejections_.add(object_line_, [&] {
+            return "\"" + surface_.name + "\": its points " +
+                   (graph ? "span no surface (three off a line are needed)"
+                          : "are no graph over their plane: they fill a volume, or the sheet lies over itself");
+        });
+    }
+    notes_.insert("points of VSet and PLine objects are triangulated in their best-fit plane");
+    surface.kind = kind_;
+    surface.file = surface_.file;
+    surfaces_.push_back(std::move(surface));
 }
 
 void Parser::record(std::string_view keyword, std::string_view rest) {
@@ -276,7 +298,7 @@ void Parser::line(std::string_view text) {
     if (keyword == "GOCAD") {
         return begin_object(rest);
     }
-    if (where_ != Where::tsurf) {
+    if (where_ != Where::tsurf && where_ != Where::points) {
         return;
     }
     if (!in_block_) {
@@ -311,11 +333,11 @@ std::vector<Surface> Parser::parse() {
         // A last line that is cut off may hold half a number: used only when it is the END.
         if (reader.terminated() || trimmed(text) == "END") {
             line(text);
-        } else if (!trimmed(text).empty() && where_ == Where::tsurf) {
+        } else if (!trimmed(text).empty() && (where_ == Where::tsurf || where_ == Where::points)) {
             reject("the file ends within this line", text);
         }
     }
-    if (where_ == Where::tsurf) {
+    if (where_ == Where::tsurf || where_ == Where::points) {
         rejections_.add(number_,
                         [&] { return "the file ends within \"" + surface_.name + "\", without END; is it cut off?"; });
         end_object();
@@ -335,8 +357,8 @@ std::vector<Surface> Parser::parse() {
         diagnostics_.note(file_ + ": objects that are no TSurf skipped: " + others);
     }
     if (surfaces_.empty()) {
-        throw InputError(file_ + ": no usable GOCAD TSurf in it" + (others.empty() ? "" : ", only " + others) +
-                         rejections_.first() +
+        throw InputError(file_ + ": no usable GOCAD TSurf, VSet or PLine in it" +
+                         (others.empty() ? "" : ", only " + others) + rejections_.first() +
                          "; surfaces are objects that begin with GOCAD TSurf and have TRGL lines");
     }
     return std::move(surfaces_);
@@ -362,7 +384,7 @@ bool is_gocad(const std::string& path) {
 }
 
 RawSurfaces read_tsurf(const Source& source, SurfaceKind kind, Diagnostics& diagnostics) {
-    return {Parser(source, kind, diagnostics).parse(), {}};
+    return {Parser(source, kind, diagnostics).parse(), {}, true};
 }
 
 }  // namespace terratet

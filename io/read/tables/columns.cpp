@@ -204,7 +204,8 @@ const std::vector<std::string>& aliases(Meaning meaning) {
         {"az", "azi", "azim", "azimuth", "brg", "bearing", "direction", "dir", "hazi", "trend", "surveyazimuth",
          "azimuthgrid", "gridazimuth"},
         // dip
-        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip", "neigung", "inclinacion", "buzamiento"},
+        {"dip", "inclination", "incl", "inc", "plunge", "devi", "surveydip", "dippref", "preferreddip", "averagedip",
+         "avgdip", "meandip", "dipangle", "neigung", "inclinacion", "buzamiento"},
         // length
         {"length", "len", "eoh", "eodh", "td", "totaldepth", "maxdepth", "depthmax", "enddepth", "finaldepth",
          "holelength", "holedepth", "endofhole", "endteufe", "eoddepth", "profondeurtotale"},
@@ -229,6 +230,11 @@ std::string normal_header(const std::string& header) {
         words.pop_back();
     }
     return joined(words);
+}
+
+bool names_depth(const std::string& header) {
+    const std::string name = normal_header(header);
+    return name.find("tvd") != std::string::npos || name.find("depth") != std::string::npos || name == "subsea";
 }
 
 int column_named(const Table& table, const std::string& name) {

@@ -220,20 +220,6 @@ bool first_row_is_header(const Table& table) {
     return names_columns(names);
 }
 
-/// One layer of several is read: which, and which others there are.
-void note_other_layers(GDALDataset& dataset, OGRLayer& layer, const Source& source, Table& table) {
-    if (!source.layer.empty() || !source.sql.empty() || dataset.GetLayerCount() < 2) {
-        return;
-    }
-    std::string others;
-    for (OGRLayer* const other : dataset.GetLayers()) {
-        others += other == &layer ? "" : (others.empty() ? "" : ", ") + to_utf8(other->GetName());
-    }
-    table.notes.push_back(
-        fmt::format("{}: of {} layers the first one, {}, is read; the others are {} (layer= names one)", table.file,
-                    dataset.GetLayerCount(), to_utf8(layer.GetName()), others));
-}
-
 bool names_option(const Source& source, const std::string& key) {
     return std::ranges::any_of(source.open_options,
                                [&](const std::string& option) { return option.starts_with(key + "="); });
@@ -251,7 +237,9 @@ Table read_once(const Source& source, bool& csv) {
         throw InputError(
             fmt::format("{}: reading failed after {} rows ({})", table.file, table.rows(), scope.failure()));
     }
-    note_other_layers(*dataset, layer, source, table);
+    if (const std::string note = other_layers(*dataset, layer, source); !note.empty()) {
+        table.notes.push_back(table.file + ": " + note);
+    }
     number_records(table, *dataset, source);
     return table;
 }

@@ -42,6 +42,9 @@ const char* to_string(Meaning meaning);
 /// The aliases of a meaning, in the normal form that headers are brought to, by falling precedence.
 const std::vector<std::string>& aliases(Meaning meaning);
 
+/// Does a header of heights say that they count downwards (TVDSS, Z_TVD, depth)?
+bool names_depth(const std::string& header);
+
 /// A header in normal form: lower case, letters and digits only, without a bracketed or trailing unit.
 std::string normal_header(const std::string& header);
 

@@ -37,7 +37,7 @@ using ValueSourceFactory = std::function<ValueSource(const Model& model, const B
 std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, const ValueSourceFactory& factory,
                                         BuildReport& report, const Progress& progress = {});
 
-/// What the model was built with, so that its site builds the same again.
+/// What the model was built with, so that its site builds the same again. \pre The model outlives it.
 BuildOptions options_of(const Model& model);
 
 }  // namespace terratet

@@ -27,7 +27,7 @@ namespace terratet {
 /// Why a bad cell was left as it is.
 enum class Reason : std::uint8_t {
     none,        ///< the cell meets the criteria
-    smooth,      ///< exempt: every |Δf| along its edges is below df_min
+    smooth,      ///< exempt: every |Δf| along its edges is below df_min, or half the tolerance
     too_close,   ///< the new vertex would come nearer than l_min to another
     near_face,   ///< so would the projection of its circumcentre onto the hull box
     near_fault,  ///< the new vertex would lie in a fault's protection zone
@@ -42,6 +42,7 @@ struct RefineOptions {
     std::uint64_t max_vertices = 50'000'000;  ///< throws Error when the tessellation would exceed it
     bool candidates = true;                   ///< rule 4: try points around a circumcentre that would make a flat star
     bool clean_up = true;                     ///< rule 6: move or remove inserted vertices of slivers and tiny cells
+    bool residuals = true;                    ///< false leaves the residual criterion to the clean-up
     Progress progress;
 };
 
@@ -49,6 +50,7 @@ struct RefineReport {
     std::uint64_t inserted = 0;               ///< whatever became of them later; also by the clean-up
     std::uint64_t moved = 0;                  ///< moves by the clean-up
     std::uint64_t removed = 0;                ///< by the clean-up
+    std::uint64_t estimates = 0;              ///< places at which the values were asked for
     double bound = 0;                         ///< R1
     std::map<Reason, std::uint64_t> skipped;  ///< bad cells left, by reason
 };

@@ -4,6 +4,8 @@
 #include "interp/estimator_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -22,7 +24,13 @@ std::shared_ptr<ModelSnapshot> built(Site site, const BuildOptions& options, Bui
         estimator = std::make_shared<const ModelEstimator>(model, barriers, plan, counters);
         return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
     };
-    std::unique_ptr<TessellatedModel> made = build(std::move(site), options, factory, report, progress);
+    BuildOptions with_noise = options;
+    with_noise.estimator_noise = [&estimator](const Property& property) {
+        const EstimatorSpec& spec = estimator->plan().of(property.name);
+        return spec.name == "nearest" ? std::numeric_limits<double>::infinity()
+                                      : std::sqrt(std::max(0.0, spec.given("nugget").value_or(0)));
+    };
+    std::unique_ptr<TessellatedModel> made = build(std::move(site), with_noise, factory, report, progress);
     made->model.estimator = estimator->plan().to_string();
     report.fallbacks = counters->fallbacks;
     return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator));

@@ -112,12 +112,19 @@ class Hash {
         add_all(point, name);
     }
     void add(const VariationLimits& v) {
-        const auto& [df_min, df_max] = v;
+        const auto& [df_min, df_max, tolerance, residual, trend] = v;
         add_all(df_min, df_max);
+        if (tolerance > 0) {  // as models were before there were any
+            add_all(tolerance, residual, trend);
+        }
     }
     void add(const ResolutionOverride& o) {
         const auto& [where, box, point, l_min, l_max] = o;
         add_all(where, box, point, l_min, l_max);
+    }
+    void add(const FinePlace& f) {
+        const auto& [position, l_min] = f;
+        add_all(position, l_min);
     }
     void add(const Vertex& v) {
         const auto& [id, position, role, owner, side] = v;
@@ -137,8 +144,12 @@ class Hash {
         add_all(extent, hull, outline);
     }
     void add(const Criteria& c) {
-        const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides] = c;
+        const auto& [l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides, l_min_between,
+                     l_min_floor, shape_everywhere, fine] = c;
         add_all(l_min, l_max, radius_edge, aspect, v_min, v_max, dihedral_deg, variation, overrides);
+        if (c.has_tolerance()) {
+            add_all(l_min_between, l_min_floor, shape_everywhere, fine);
+        }
     }
     void add(const BarrierOptions& o) {
         const auto& [spacing, width, snap, max_seeds, mode, refine] = o;

@@ -144,6 +144,11 @@ json criteria_json(const Criteria& c) {
     json variation = json::array();
     for (const VariationLimits& limits : c.variation) {
         variation.push_back({{"df_min", number(limits.df_min)}, {"df_max", number(limits.df_max)}});
+        if (limits.tolerance > 0) {
+            variation.back()["tolerance"] = number(limits.tolerance);
+            variation.back()["residual"] = number(limits.residual);
+            variation.back()["trend"] = vector(limits.trend);
+        }
     }
     json overrides = json::array();
     for (const ResolutionOverride& part : c.overrides) {
@@ -151,15 +156,45 @@ json criteria_json(const Criteria& c) {
                                                                         : json{{"block_at", vector(part.point)}};
         overrides.push_back({{"where", where}, {"l_min", number(part.l_min)}, {"l_max", number(part.l_max)}});
     }
-    return {{"l_min", number(c.l_min)},
-            {"l_max", number(c.l_max)},
-            {"radius_edge", number(c.radius_edge)},
-            {"aspect", number(c.aspect)},
-            {"v_min", number(c.v_min)},
-            {"v_max", number(c.v_max)},
-            {"dihedral_deg", number(c.dihedral_deg)},
-            {"variation", variation},
-            {"overrides", overrides}};
+    json fine = json::array();  // four numbers a place: there may be as many as samples
+    for (const FinePlace& place : c.fine) {
+        for (const double value : {place.position.x, place.position.y, place.position.z, place.l_min}) {
+            fine.push_back(number(value));
+        }
+    }
+    json result{{"l_min", number(c.l_min)},
+                {"l_max", number(c.l_max)},
+                {"radius_edge", number(c.radius_edge)},
+                {"aspect", number(c.aspect)},
+                {"v_min", number(c.v_min)},
+                {"v_max", number(c.v_max)},
+                {"dihedral_deg", number(c.dihedral_deg)},
+                {"variation", variation},
+                {"overrides", overrides}};
+    if (c.has_tolerance()) {
+        result["l_min_between"] = number(c.l_min_between);
+        result["l_min_floor"] = number(c.l_min_floor);
+        result["shape"] = c.shape_everywhere ? "everywhere" : "needed";
+        result["fine"] = std::move(fine);
+    }
+    return result;
+}
+
+/// Absent from models without a tolerance.
+void read_tolerance(const json& j, Criteria& c) {
+    if (!j.contains("fine")) {
+        return;
+    }
+    c.l_min_between = number(j.at("l_min_between"));
+    c.l_min_floor = number(j.at("l_min_floor"));
+    c.shape_everywhere = is_second(j.at("shape"), "needed", "everywhere");
+    const json& fine = j.at("fine");
+    if (fine.size() % 4 != 0) {
+        throw json::other_error::create(501, "fine places are not four numbers each", nullptr);
+    }
+    for (std::size_t i = 0; i < fine.size(); i += 4) {
+        c.fine.push_back({{number(fine[i]), number(fine[i + 1]), number(fine[i + 2])}, number(fine[i + 3])});
+    }
 }
 
 Criteria criteria_of(const json& j) {
@@ -172,7 +207,14 @@ Criteria criteria_of(const json& j) {
     c.v_max = number(j.at("v_max"));
     c.dihedral_deg = number(j.at("dihedral_deg"));
     for (const json& limits : j.at("variation")) {
-        c.variation.push_back({number(limits.at("df_min")), number(limits.at("df_max"))});
+        VariationLimits& read = c.variation.emplace_back();
+        read.df_min = number(limits.at("df_min"));
+        read.df_max = number(limits.at("df_max"));
+        if (limits.contains("tolerance")) {
+            read.tolerance = number(limits.at("tolerance"));
+            read.residual = number(limits.at("residual"));
+            read.trend = vector(limits.at("trend"));
+        }
     }
     for (const json& part : j.at("overrides")) {
         ResolutionOverride read;
@@ -186,6 +228,7 @@ Criteria criteria_of(const json& j) {
         read.l_max = number(part.at("l_max"));
         c.overrides.push_back(read);
     }
+    read_tolerance(j, c);
     return c;
 }
 

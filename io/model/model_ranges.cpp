@@ -131,6 +131,18 @@ void Ranges::criteria() {
         fail("criteria", "there are " + std::to_string(c.variation.size()) + " limits of variation for " +
                              std::to_string(model_.properties.size()) + " properties");
     }
+    for (const VariationLimits& limits : c.variation) {
+        if (!is_finite(limits.trend)) {
+            fail("criteria", "the trend of a property is not finite");
+        }
+    }
+    for (const FinePlace& place : c.fine) {
+        require(place.l_min > 0 && place.l_min <= max_coordinate, "criteria", "l_min of a fine place", place.l_min,
+                "a length above 0, up to 1e9");
+        if (!is_acceptable(place.position)) {
+            fail("criteria", "a fine place is none within 1e9");
+        }
+    }
     for (const ResolutionOverride& part : c.overrides) {
         require(part.l_max <= 10 * max_coordinate, "criteria", "l_max of a part", part.l_max, "a length up to 1e10");
         if (part.where == ResolutionOverride::Where::box ? !is_acceptable(part.box.lo) || !is_acceptable(part.box.hi)

@@ -31,7 +31,10 @@ std::vector<char> points_on_surfaces(const ModelView& view, const ClippedMesh& m
 }  // namespace
 
 double smallest_l_min(const Criteria& criteria) {
-    double smallest = criteria.l_min;
+    double smallest = criteria.l_min_between > 0 ? std::min(criteria.l_min, criteria.l_min_between) : criteria.l_min;
+    for (const FinePlace& place : criteria.fine) {
+        smallest = std::min(smallest, place.l_min);
+    }
     for (const ResolutionOverride& part : criteria.overrides) {
         smallest = std::min(smallest, part.l_min);
     }

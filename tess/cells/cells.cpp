@@ -26,12 +26,20 @@ class Explainer {
 
     Reason operator()(const std::array<std::uint32_t, 4>& cell) {
         const JudgedCell judged_cell = judged(mesh_, cell);
-        if (rule_.violation(judged_cell) <= 1) {
-            return Reason::none;
+        if (rule_.violation_in_force(judged_cell) > 1) {
+            return refusal(judged_cell);
         }
-        if (rule_.violation_in_force(judged_cell) <= 1) {
-            return Reason::smooth;
+        const Reason otherwise = rule_.violation(judged_cell) > 1 ? Reason::smooth : Reason::none;
+        if (!rule_.unsure(judged_cell)) {
+            return otherwise;
         }
+        const Reason refused = refusal(judged_cell);
+        return refused == Reason::none ? otherwise : refused;
+    }
+
+  private:
+    /// Why it may have no new vertex; none when it may.
+    Reason refusal(const JudgedCell& judged_cell) {
         const Proposal proposal = rule_.propose(judged_cell);
         const Reason reason = proposal.reason != Reason::none ? proposal.reason
                               : crowded(proposal.point)       ? Reason::too_close
@@ -46,7 +54,6 @@ class Explainer {
         return Reason::none;
     }
 
-  private:
     bool crowded(const Vec3& place) { return vertices().any_within(place, rule_.resolution().l_min(place)); }
 
     const PointGrid& vertices() {

@@ -11,6 +11,7 @@
 #include "tess/cells/crossing_edges.hpp"
 #include "tess/edit/boundary.hpp"
 #include "tess/edit/build_defaults.hpp"
+#include "tess/edit/build_tolerance.hpp"
 #include "tess/edit/given_values.hpp"
 #include "tess/edit/vertex_demand.hpp"
 #include "tess/error.hpp"
@@ -98,8 +99,8 @@ class InitialVertices {
         for (const Vertex& vertex : model_.vertices) {
             obstacles.push_back(vertex.position);
         }
-        for (const Vec3& p : face_grid(model_.domain.hull, model_.criteria.l_min, model_.criteria.l_max, obstacles,
-                                       model_.frame, poll)) {
+        for (const Vec3& p : face_grid(model_.domain.hull, model_.criteria.l_min, longest_on_faces(model_.criteria),
+                                       obstacles, model_.frame, poll)) {
             add(p, Role::domain, -1, 0);
         }
     }
@@ -153,7 +154,9 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         const Stopwatch watch(report.seconds["density"]);
         const Poll thinning = [&] { report_progress(progress, "density", 0); };
         thinning();
-        report.density = thin(model, inside_extent(model, report), options.density, proximity, thinning);
+        const std::vector<std::uint32_t> inside = inside_extent(model, report);
+        retain_samples(options, inside, proximity, model, thinning);
+        report.density = thin(model, inside, options.density, proximity, thinning);
         initial.add_samples(report.density.kept);
     }
     {
@@ -169,6 +172,7 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         const Stopwatch watch(estimating);
         report_progress(progress, "estimate", 0);
         source = factory(model, proximity);
+        set_residual_limits(options, model);
         model.vertex_values = measured_or_estimated(model, source);
     }
     const ValueSource timed_source = [&](std::span<const ValueQuery> queries) {
@@ -184,12 +188,14 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
             RefineOptions refine_options = options.refine;
             refine_options.progress = progress;
             const double before = estimating;
-            report.refine = refine(tessellation, model.vertex_values, model.domain, model.frame, proximity,
-                                   model.criteria, model.properties, timed_source, refine_options);
+            report.refine =
+                refine(tessellation, model.vertex_values, model.domain, model.frame, proximity, model.criteria,
+                       model.properties, timed_source, refine_options, dropped_samples(model, proximity));
             report.seconds["refine"] -= estimating - before;
         }
         model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
         describe(*built, report);
+        note_lost_field(model, report);
     }
     report.seconds["estimate"] = estimating;
     return built;
@@ -203,6 +209,8 @@ BuildOptions options_of(const Model& model) {
     options.density = model.density;
     options.barriers = model.barrier_options;
     options.estimator = model.estimator;
+    options.default_tolerance = false;
+    options.estimator_noise = stored_noise(model);
     return options;
 }
 

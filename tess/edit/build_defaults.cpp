@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "tess/edit/build_tolerance.hpp"
 #include "tess/error.hpp"
 #include "tess/site/site_box.hpp"
 
@@ -140,6 +141,7 @@ void resolve_resolution(const BuildOptions& options, Model& model, BuildReport& 
         model.criteria.l_max = 4 * model.criteria.l_min;
     }
     model.criteria.variation.resize(model.properties.size());
+    set_tolerance_defaults(options, diagonal, model);
     validate(model.criteria);
     draw_outline(options, model, report);
     Box3 extent = options.extent.empty() ? padded(data, options, model.criteria) : options.extent;

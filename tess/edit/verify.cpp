@@ -10,6 +10,7 @@
 #include "tess/base/tetrahedron.hpp"
 #include "tess/cells.hpp"
 #include "tess/cells/crossing_edges.hpp"
+#include "tess/edit/verify_tolerance.hpp"
 #include "tess/mesh/quality.hpp"
 #include "tess/model/density_edition.hpp"
 #include "tess/refine/refine.hpp"
@@ -86,9 +87,10 @@ bool in_protection_zone(const Model& model, const std::vector<std::vector<double
 
 class Verifier {
   public:
-    Verifier(const Model& model, const ValueSourceFactory& factory, bool edited)
+    Verifier(const Model& model, const ValueSourceFactory& factory, bool edited, const VerifyOptions& options)
         : model_(model),
           edited_(edited),
+          options_(options),
           proximity_(model_proximity(model)),
           factory_(factory),
           source_(factory ? factory(model, proximity_) : ValueSource()),
@@ -104,9 +106,9 @@ class Verifier {
 
     std::vector<Verdict> run(const Progress& progress) {
         std::vector<Verdict> verdicts;
-        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::d3,    &Verifier::v1, &Verifier::f1,
-                            &Verifier::r1, &Verifier::r2, &Verifier::r3,    &Verifier::r4, &Verifier::r5,
-                            &Verifier::r6, &Verifier::r7, &Verifier::volume};
+        const auto steps = {&Verifier::d1, &Verifier::d2, &Verifier::d3, &Verifier::v1, &Verifier::t1,
+                            &Verifier::t2, &Verifier::f1, &Verifier::r1, &Verifier::r2, &Verifier::r3,
+                            &Verifier::r4, &Verifier::r5, &Verifier::r6, &Verifier::r7, &Verifier::volume};
         for (const auto step : steps) {
             report_progress(progress, "check",
                             static_cast<double>(verdicts.size()) / static_cast<double>(steps.size()));
@@ -126,9 +128,9 @@ class Verifier {
         Offenders offenders;
         const Sweep kept(kept_);
         for (const Vec3& p : kept_) {
-            const double l_min = resolution_.l_min(p);
+            const double l_min = resolution_.sample_l_min(p);
             if (kept.any_of(p, l_min, [&](const Vec3& q) {
-                    return p != q && squared_distance(p, q) < std::pow(std::min(l_min, resolution_.l_min(q)), 2);
+                    return p != q && squared_distance(p, q) < std::pow(std::min(l_min, resolution_.sample_l_min(q)), 2);
                 })) {
                 offenders.add("sample at " + show(model_, p));
             }
@@ -151,7 +153,7 @@ class Verifier {
             }
             ++dropped;
             const auto any = [](const Vec3&) { return true; };
-            if (!kept.any_of(p, resolution_.l_min(p), any) && !in_protection_zone(model_, radii, p)) {
+            if (!kept.any_of(p, resolution_.sample_l_min(p), any) && !in_protection_zone(model_, radii, p)) {
                 offenders.add("sample at " + show(model_, p));
             }
         }
@@ -214,6 +216,16 @@ class Verifier {
             }
         }
         return offenders.verdict("V1", "kept samples carry their measured values", std::to_string(values) + " values");
+    }
+
+    Verdict t1() {
+        const auto [holds, detail] = verify_between_samples(model_, mesh_, table_, source_);
+        return {"T1", holds, "between samples the field is within the tolerance of the estimator", detail};
+    }
+
+    Verdict t2() {
+        const auto [holds, detail] = verify_samples(model_, mesh_, table_, proximity_);
+        return {"T2", holds, "every sample is met within the tolerance, or counted with its reason", detail};
     }
 
     Verdict f1() {
@@ -381,8 +393,10 @@ class Verifier {
         // Whether a move would be accepted can depend on values at the new place, which only the estimator knows.
         RefineOptions options;
         options.clean_up = !edited_ && (source_ || !model_.criteria.has_variation());
-        const RefineReport report = refine(tessellation_, values, model_.domain, model_.frame, proximity_,
-                                           model_.criteria, model_.properties, source_ ? source_ : none, options);
+        options.residuals = options_.all;
+        const RefineReport report =
+            refine(tessellation_, values, model_.domain, model_.frame, proximity_, model_.criteria, model_.properties,
+                   source_ ? source_ : none, options, dropped_samples(model_, proximity_));
         if (report.inserted + report.moved + report.removed > 0) {
             offenders.add(std::to_string(report.inserted) + " vertices would be inserted, " +
                           std::to_string(report.moved) + " moved, " + std::to_string(report.removed) + " removed");
@@ -411,6 +425,7 @@ class Verifier {
 
     const Model& model_;
     bool edited_;
+    VerifyOptions options_;
     BarrierQuery proximity_;
     const ValueSourceFactory& factory_;
     ValueSource source_;
@@ -424,8 +439,8 @@ class Verifier {
 }  // namespace
 
 std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress,
-                            bool edited) {
-    return Verifier(model, factory, edited).run(progress);
+                            bool edited, const VerifyOptions& options) {
+    return Verifier(model, factory, edited, options).run(progress);
 }
 
 }  // namespace terratet

@@ -27,7 +27,8 @@ double demand_of_cells(const Model& model) {
     const Box3& hull = model.domain.hull;
     const double volume = hull.volume();
     double wanted = criteria.v_max > 0 ? volume / criteria.v_max / cells_per_vertex : 0;
-    if (std::ranges::any_of(criteria.variation, [](const VariationLimits& v) { return v.df_min > 0; })) {
+    if (std::isinf(longest_on_faces(criteria)) ||
+        std::ranges::any_of(criteria.variation, [](const VariationLimits& v) { return v.df_min > 0; })) {
         return wanted;
     }
     double coarsest = criteria.l_max;
@@ -46,7 +47,7 @@ double demand_of_cells(const Model& model) {
 
 /// At least: some are left out near samples.
 double demand_of_grid(const Model& model) {
-    const auto [x, y, z] = grid_steps(model.domain.hull, model.criteria.l_min, model.criteria.l_max);
+    const auto [x, y, z] = grid_steps(model.domain.hull, model.criteria.l_min, longest_on_faces(model.criteria));
     return x * y + y * z + z * x;  // half of them
 }
 

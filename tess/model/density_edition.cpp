@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "tess/base/point_grid.hpp"
+#include "tess/base/point_levels.hpp"
 #include "tess/base/poll.hpp"
 #include "tess/mesh/bulk_insertion.hpp"
 #include "tess/mesh/delaunay.hpp"
@@ -17,12 +17,12 @@ namespace {
 using Edge = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared length, ends: shortest first, ties by index
 
 /// Greedy thinning in the order given.
-std::vector<std::uint32_t> keep_in_order(const Samples& samples, const std::vector<std::uint32_t>& order,
-                                         PointGrid& kept, const ResolutionField& resolution, PatientPoll& go_on) {
+std::vector<std::uint32_t> keep_beside(PointLevels& kept, const Samples& samples, std::span<const std::uint32_t> order,
+                                       const ResolutionField& resolution, PatientPoll& go_on) {
     std::vector<std::uint32_t> result;
     for (const std::uint32_t i : order) {
         go_on();
-        if (!kept.any_within(samples.positions[i], resolution.l_min(samples.positions[i]))) {
+        if (!kept.any_within(samples.positions[i], resolution.sample_l_min(samples.positions[i]))) {
             kept.insert(samples.positions[i]);
             result.push_back(i);
         }
@@ -40,7 +40,7 @@ class DynamicDeletion {
         : samples_(samples), limits_(samples.size()), handles_(samples.size()), go_on_(go_on) {
         std::vector<std::pair<delaunay::Point, std::uint32_t>> points;
         for (const std::uint32_t i : candidates) {
-            const double l_min = resolution.l_min(samples.positions[i]);
+            const double l_min = resolution.sample_l_min(samples.positions[i]);
             limits_[i] = l_min * l_min;
             points.emplace_back(delaunay::to_cgal(samples.positions[i]), i);
         }
@@ -126,23 +126,43 @@ class DynamicDeletion {
 
 }  // namespace
 
+std::vector<std::uint32_t> unprotected(const Samples& samples, const BarrierQuery& barriers, const Poll& poll) {
+    PatientPoll go_on(poll);
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        go_on();
+        if (barriers.protecting_barrier(samples.positions[i]) < 0) {
+            result.push_back(i);
+        }
+    }
+    return result;
+}
+
+std::vector<std::uint32_t> keep_in_order(const Samples& samples, std::span<const std::uint32_t> candidates,
+                                         const ResolutionField& resolution, const Poll& poll) {
+    PatientPoll go_on(poll);
+    PointLevels kept;
+    return keep_beside(kept, samples, candidates, resolution, go_on);
+}
+
 DensityResult edit_density(const Samples& samples, const ResolutionField& resolution, DensityMode mode,
                            const BarrierQuery& barriers, const Poll& poll) {
     PatientPoll go_on(poll);
     DensityResult result;
-    std::vector<std::uint32_t> candidates;
+    const std::vector<std::uint32_t> candidates = unprotected(samples, barriers, poll);
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
-        go_on();
-        (barriers.protecting_barrier(samples.positions[i]) < 0 ? candidates : result.near_faults).push_back(i);
+        if (!std::ranges::binary_search(candidates, i)) {
+            result.near_faults.push_back(i);
+        }
     }
-    PointGrid kept(resolution.largest_l_min());
+    PointLevels kept;
     if (mode == DensityMode::paper) {
         result.kept = DynamicDeletion(samples, candidates, resolution, go_on).run();
         for (const std::uint32_t i : result.kept) {
             kept.insert(samples.positions[i]);
         }
     }
-    const auto added = keep_in_order(samples, candidates, kept, resolution, go_on);
+    const auto added = keep_beside(kept, samples, candidates, resolution, go_on);
     result.kept.insert(result.kept.end(), added.begin(), added.end());
     std::ranges::sort(result.kept);
     result.deleted = candidates.size() - result.kept.size();
@@ -154,6 +174,23 @@ DensityResult edit_density(const Samples& samples, double l_min, DensityMode mod
     criteria.l_min = l_min;
     const Domain nowhere;  // only overrides ask for it
     return edit_density(samples, ResolutionField(criteria, nowhere, {}), mode, barriers);
+}
+
+Samples dropped_samples(const Model& model, const BarrierQuery& barriers) {
+    std::vector<char> is_vertex(model.samples.size(), 0);
+    for (const Vertex& vertex : model.vertices) {
+        if (vertex.role == Role::sample) {
+            is_vertex[static_cast<std::size_t>(vertex.owner)] = 1;
+        }
+    }
+    std::vector<std::uint32_t> dropped;
+    for (std::uint32_t i = 0; i < model.samples.size(); ++i) {
+        const Vec3& p = model.samples.positions[i];
+        if (is_vertex[i] == 0 && model.domain.extent.contains(p) && barriers.protecting_barrier(p) < 0) {
+            dropped.push_back(i);
+        }
+    }
+    return selected(model.samples, dropped);
 }
 
 }  // namespace terratet

@@ -35,7 +35,10 @@ struct ResolutionField::Blocks : BlockFinder {
 };
 
 ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain, std::span<const Barrier> barriers)
-    : criteria_(criteria), domain_(domain) {
+    : criteria_(criteria),
+      domain_(domain),
+      between_(criteria.l_min_between > 0 ? std::min(criteria.l_min_between, criteria.l_min) : criteria.l_min),
+      fine_(criteria.fine) {
     const auto names_block = [](const ResolutionOverride& part) { return part.where == Where::block; };
     if (std::ranges::none_of(criteria.overrides, names_block)) {
         return;
@@ -54,7 +57,7 @@ ResolutionField::ResolutionField(const Criteria& criteria, const Domain& domain,
 ResolutionField::~ResolutionField() = default;
 ResolutionField::ResolutionField(ResolutionField&&) noexcept = default;
 
-double ResolutionField::l_min_by_part(const Vec3& place) const {
+double ResolutionField::l_min_by_part(const Vec3& place, double elsewhere) const {
     const std::int32_t block = blocks_ ? blocks_->block_at(place, domain_.hull) : -1;
     for (std::size_t i = criteria_.overrides.size(); i-- > 0;) {
         const ResolutionOverride& part = criteria_.overrides[i];
@@ -62,7 +65,7 @@ double ResolutionField::l_min_by_part(const Vec3& place) const {
             return part.l_min;
         }
     }
-    return criteria_.l_min;
+    return elsewhere;
 }
 
 double ResolutionField::l_max_by_part(const CellPoints& cell) const {
@@ -84,23 +87,30 @@ double ResolutionField::l_max_by_part(const CellPoints& cell) const {
 }
 
 double ResolutionField::smallest_l_min() const {
-    double smallest = criteria_.l_min;
+    double smallest = std::min(between_, fine_.smallest());
     for (const ResolutionOverride& part : criteria_.overrides) {
         smallest = std::min(smallest, part.l_min);
     }
     return smallest;
 }
 
-double ResolutionField::largest_l_min() const {
-    double largest = criteria_.l_min;
+double ResolutionField::largest_by_part(double elsewhere) const {
     for (const ResolutionOverride& part : criteria_.overrides) {
-        largest = std::max(largest, part.l_min);
+        elsewhere = std::max(elsewhere, part.l_min);
     }
-    return largest;
+    return elsewhere;
+}
+
+double ResolutionField::largest_l_min() const {
+    return largest_by_part(between_);
+}
+
+double ResolutionField::largest_sample_l_min() const {
+    return largest_by_part(criteria_.l_min);
 }
 
 double ResolutionField::packing_bound() const {
-    double bound = terratet::packing_bound(domain_.hull, criteria_.l_min);
+    double bound = terratet::packing_bound(domain_.hull, between_) + fine_.packing_bound(largest_l_min());
     for (const ResolutionOverride& part : criteria_.overrides) {
         const Box3& hull = domain_.hull;
         const Box3 box = part.where == Where::box ? Box3{hull.clamped(part.box.lo), hull.clamped(part.box.hi)} : hull;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -30,11 +31,12 @@ int steps_below(double value, double limit) {
 }  // namespace
 
 CleanUp::CleanUp(delaunay::Core& core, LiveVertices& vertices, const InsertionRule& rule, const ConflictSearch& search,
-                 const Criteria& criteria, const Frame& frame, const Progress& progress)
+                 ResidualTest& residuals, const Criteria& criteria, const Frame& frame, const Progress& progress)
     : core_(core),
       vertices_(vertices),
       rule_(rule),
       search_(search),
+      residuals_(residuals),
       criteria_(criteria),
       frame_(frame),
       progress_(progress),
@@ -109,7 +111,13 @@ void CleanUp::add(const JudgedCell& cell, State& state) const {
     if (const int how_bad = severity(cell); how_bad > 0) {
         state.severities.push_back(how_bad);
     }
-    if (gap_barrier(cell.vertices, core_.vertices) >= 0 || rule_.violation_in_force(cell) <= 1) {
+    if (gap_barrier(cell.vertices, core_.vertices) >= 0) {
+        return;
+    }
+    if (rule_.violation_in_force(cell) <= 1) {
+        if (residuals_.active()) {
+            state.unknown.push_back(cell);
+        }
         return;
     }
     if (const Proposal proposal = rule_.propose(cell); proposal.reason == Reason::none) {
@@ -123,7 +131,18 @@ bool CleanUp::better(State& after, State& before) const {
     std::ranges::sort(after.severities, std::greater());
     std::ranges::sort(before.severities, std::greater());
     return !after.open && (thorough_ || after.blocked <= before.blocked) &&
-           std::ranges::lexicographical_compare(after.severities, before.severities);
+           std::ranges::lexicographical_compare(after.severities, before.severities) && within_tolerance(after);
+}
+
+/// Asks the estimator: the last question, of the few changes that geometry welcomes.
+bool CleanUp::within_tolerance(const State& state) const {
+    if (!residuals_.active()) {
+        return true;
+    }
+    std::vector<JudgedCell> treatable;
+    std::ranges::copy_if(state.unknown, std::back_inserter(treatable),
+                         [&](const JudgedCell& cell) { return rule_.propose(cell).reason == Reason::none; });
+    return std::ranges::all_of(residuals_.of(treatable), [](const Residual& r) { return r.ratio <= 1; });
 }
 
 bool CleanUp::movable(std::uint32_t vertex) const {

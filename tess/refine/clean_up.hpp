@@ -22,6 +22,7 @@
 #include "tess/refine/insertion_rule.hpp"
 #include "tess/refine/live_cell.hpp"
 #include "tess/refine/live_vertices.hpp"
+#include "tess/refine/residual.hpp"
 
 namespace terratet {
 
@@ -34,7 +35,7 @@ struct CleanUpReport {
 class CleanUp {
   public:
     CleanUp(delaunay::Core& core, LiveVertices& vertices, const InsertionRule& rule, const ConflictSearch& search,
-            const Criteria& criteria, const Frame& frame, const Progress& progress);
+            ResidualTest& residuals, const Criteria& criteria, const Frame& frame, const Progress& progress);
 
     /// Removed vertices are gone from the triangulation but still in the core's table: removed() tells which.
     CleanUpReport run();
@@ -50,6 +51,7 @@ class CleanUp {
         std::vector<int> severities;  ///< falling, without zeros
         int blocked = 0;              ///< cells that break an insertion criterion and carry a reason why that stays so
         bool open = false;            ///< some cell breaks an insertion criterion and could be treated
+        std::vector<JudgedCell> unknown;  ///< that could be treated if their residual called for it
     };
 
     struct Patient {
@@ -70,6 +72,7 @@ class CleanUp {
     [[nodiscard]] int severity(const JudgedCell& cell) const;
     void add(const JudgedCell& cell, State& state) const;
     [[nodiscard]] bool better(State& after, State& before) const;
+    [[nodiscard]] bool within_tolerance(const State& state) const;
     [[nodiscard]] bool movable(std::uint32_t vertex) const;
     [[nodiscard]] std::vector<std::uint32_t> neighbours(const Patient& patient) const;
     void sweep_until_settled(std::vector<Patient> all, bool last_resorts);
@@ -90,6 +93,7 @@ class CleanUp {
     LiveVertices& vertices_;
     const InsertionRule& rule_;
     const ConflictSearch& search_;
+    ResidualTest& residuals_;
     const Criteria& criteria_;
     const Frame& frame_;
     const Progress& progress_;

@@ -30,6 +30,16 @@ double aspect_violation(const CellPoints& p, double squared_radius, double volum
     return factor <= 1 ? 1 : factor;
 }
 
+/// By property, the variation below which a cell is smooth; 0 where none counts.
+std::vector<double> smooth_limits(const Criteria& criteria) {
+    std::vector<double> limits;
+    for (const VariationLimits& v : criteria.variation) {
+        const double tolerance = criteria.shape_everywhere ? 0 : std::max(v.tolerance, v.residual);
+        limits.push_back(v.df_min > 0 ? v.df_min : tolerance / 2);
+    }
+    return limits;
+}
+
 }  // namespace
 
 JudgedCell judged(const TetMesh& mesh, std::array<std::uint32_t, 4> cell) {
@@ -50,7 +60,8 @@ InsertionRule::InsertionRule(const Criteria& criteria, const Domain& domain, con
       properties_(properties),
       values_(values),
       has_variation_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_max > 0; })),
-      has_smooth_(std::ranges::any_of(criteria.variation, [](const auto& v) { return v.df_min > 0; })) {}
+      smooth_below_(smooth_limits(criteria)),
+      has_smooth_(std::ranges::any_of(smooth_below_, [](double limit) { return limit > 0; })) {}
 
 /// Of edges, R/ℓ and volume: what insertion mends for certain.
 double InsertionRule::size_violation(const JudgedCell& cell) const {
@@ -113,21 +124,42 @@ bool InsertionRule::merely_flat(const JudgedCell& cell) const {
     return size_violation(cell) <= 1 && (!has_variation_ || variation_violation(cell) <= 1);
 }
 
+bool InsertionRule::varies_less(const JudgedCell& cell, std::size_t property, double limit) const {
+    const Property& kind = properties_[property];
+    const Vec3& trend = criteria_.variation[property].trend;
+    const auto& column = values_.values[property];
+    return std::ranges::all_of(cell_edges, [&](const auto& edge) {
+        const auto [i, j] = edge;
+        const double from = column[cell.vertices[i]];
+        const double to = column[cell.vertices[j]];
+        if (trend == Vec3{}) {
+            return scaled_difference(kind, from, to) < limit;
+        }
+        const double beside = to_scale(kind, to) - to_scale(kind, from) - dot(trend, cell.points[j] - cell.points[i]);
+        return !(std::abs(beside) >= limit);
+    });
+}
+
 bool InsertionRule::smooth(const JudgedCell& cell) const {
     if (!has_smooth_) {
         return false;
     }
-    for (std::size_t property = 0; property < criteria_.variation.size(); ++property) {
-        const double limit = criteria_.variation[property].df_min;
-        const auto& column = values_.values[property];
-        for (const auto& [i, j] : cell_edges) {
-            if (limit > 0 && !(scaled_difference(properties_[property], column[cell.vertices[i]],
-                                                 column[cell.vertices[j]]) < limit)) {
-                return false;
-            }
+    for (std::size_t property = 0; property < smooth_below_.size(); ++property) {
+        if (smooth_below_[property] > 0 && !varies_less(cell, property, smooth_below_[property])) {
+            return false;
         }
     }
     return true;
+}
+
+bool InsertionRule::unsure(const JudgedCell& cell) const {
+    for (std::size_t property = 0; property < criteria_.variation.size(); ++property) {
+        const double residual = criteria_.variation[property].residual;
+        if (residual > 0 && !varies_less(cell, property, residual / 2)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 double InsertionRule::violation(const JudgedCell& cell) const {

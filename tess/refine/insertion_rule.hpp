@@ -55,8 +55,11 @@ class InsertionRule {
     /// only above 1. Exemption as smooth is not considered.
     [[nodiscard]] double violation(const JudgedCell& cell) const;
 
-    /// Below df_min along all edges: exempt from shape and l_max.
+    /// Below df_min, or half the tolerance, along all edges: exempt from shape and l_max.
     [[nodiscard]] bool smooth(const JudgedCell& cell) const;
+
+    /// Varies by half the tolerance or more, so that its residual cannot be known without asking.
+    [[nodiscard]] bool unsure(const JudgedCell& cell) const;
 
     /// What is left of the violation when a smooth cell's shape and l_max are forgiven.
     [[nodiscard]] double violation_in_force(const JudgedCell& cell) const;
@@ -84,6 +87,7 @@ class InsertionRule {
     [[nodiscard]] double size_violation(const JudgedCell& cell) const;
     [[nodiscard]] double shape_violation(const JudgedCell& cell) const;
     [[nodiscard]] double variation_violation(const JudgedCell& cell) const;
+    [[nodiscard]] bool varies_less(const JudgedCell& cell, std::size_t property, double limit) const;
     [[nodiscard]] bool near_face(const Vec3& point, double margin) const;
 
     const Criteria& criteria_;
@@ -95,6 +99,7 @@ class InsertionRule {
     std::span<const Property> properties_;
     const VertexValues& values_;
     bool has_variation_;
+    std::vector<double> smooth_below_;  ///< by property; 0: whatever it varies by
     bool has_smooth_;
 };
 

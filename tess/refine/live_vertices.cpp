@@ -25,7 +25,7 @@ LiveVertices::LiveVertices(delaunay::Core& core, VertexValues& values, const Val
       l_min_(l_min),
       bound_(bound) {}
 
-std::uint32_t LiveVertices::append(const Vec3& place) {
+std::uint32_t LiveVertices::append(const Vec3& place, const Estimate* known) {
     auto& vertices = core_.vertices;
     if (vertices.size() >= max_vertices_) {
         throw refinement_beyond(max_vertices_, others_, l_min_, bound_);
@@ -34,7 +34,12 @@ std::uint32_t LiveVertices::append(const Vec3& place) {
         vertices.reserve(vertices.size() / 8 * 9 + 8);
     }
     vertices.push_back({core_.next_id++, place, Role::inserted, -1, 0});
-    if (values_at_once_) {
+    if (known != nullptr) {
+        for (std::size_t p = 0; p < values_.values.size(); ++p) {
+            values_.values[p].push_back(known->values[p]);
+        }
+        values_.extrapolation.push_back(known->extrapolation);
+    } else if (values_at_once_) {
         complete();
     }
     return static_cast<std::uint32_t>(vertices.size() - 1);
@@ -57,6 +62,7 @@ void LiveVertices::revalue(std::uint32_t vertex, const Vec3& place) {
     }
     const ValueQuery query{place, -1, 0};
     const ValueBatch batch = source_({&query, 1});
+    ++asked_;
     for (std::size_t p = 0; p < values_.values.size(); ++p) {
         values_.values[p][vertex] = batch.values[p][0];
     }
@@ -111,6 +117,7 @@ void LiveVertices::complete() {
             queries.push_back({core_.vertices[i].position, -1, 0});
         }
         const ValueBatch batch = source_(queries);
+        asked_ += queries.size();
         for (std::size_t p = 0; p < values_.values.size(); ++p) {
             values_.values[p].insert(values_.values[p].end(), batch.values[p].begin(), batch.values[p].end());
         }

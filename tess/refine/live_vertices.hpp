@@ -7,6 +7,7 @@
 /// Where criteria ask for values they are estimated as vertices come and move; otherwise all at the end, in batches.
 
 #include "tess/mesh/delaunay.hpp"
+#include "tess/refine/residual.hpp"
 #include "tess/value_source.hpp"
 
 namespace terratet {
@@ -18,8 +19,9 @@ class LiveVertices {
     LiveVertices(delaunay::Core& core, VertexValues& values, const ValueSource& source, bool values_at_once,
                  std::uint64_t max_vertices, double l_min, double bound);
 
-    /// A vertex of role inserted, with the next id. Its place in the triangulation is the caller's business.
-    std::uint32_t append(const Vec3& place);
+    /// A vertex of role inserted, with the next id. Its place in the triangulation is the caller's business. Its
+    /// values may be known already, if those before it have theirs.
+    std::uint32_t append(const Vec3& place, const Estimate* known = nullptr);
 
     /// Takes the last one back, as if it had never been.
     void pop();
@@ -35,6 +37,9 @@ class LiveVertices {
 
     [[nodiscard]] std::size_t size() const { return core_.vertices.size(); }
 
+    /// So many places were asked for.
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
   private:
     [[nodiscard]] std::size_t valued() const { return values_.extrapolation.size(); }
 
@@ -46,6 +51,7 @@ class LiveVertices {
     std::size_t others_;  ///< there from the start
     double l_min_;
     double bound_;
+    std::uint64_t asked_ = 0;
 };
 
 }  // namespace terratet

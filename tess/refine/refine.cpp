@@ -14,6 +14,7 @@
 #include "tess/refine/insertion_rule.hpp"
 #include "tess/refine/live_cell.hpp"
 #include "tess/refine/live_vertices.hpp"
+#include "tess/refine/residual.hpp"
 #include "tess/refine/touched_cells.hpp"
 
 namespace terratet {
@@ -30,20 +31,28 @@ constexpr int candidate_count = 7;
 /// For a cell that is merely flat: its shape is a matter of luck, and a vertex in vain asks for more and shorter edges.
 constexpr int candidate_count_if_flat = 28;
 
+/// Cells whose residual is asked at a time: enough for all threads, and few enough that insertion spares many of those
+/// that wait. Of meshes with few cells, fewer.
+constexpr std::size_t largest_batch = 1024;
+constexpr std::size_t smallest_batch = 64;
+constexpr std::size_t batches_in_mesh = 32;
+
 class Refiner {
   public:
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
             const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
-            const ValueSource& source, const RefineOptions& options)
+            const ValueSource& source, const RefineOptions& options, const Samples& dropped)
         : core_(delaunay::core(tessellation)),
           rule_(criteria, domain, frame, barriers, properties, values),
           search_(core_.triangulation, domain.hull),
+          residuals_(criteria, frame, properties, values, source, dropped),
           criteria_(criteria),
           frame_(frame),
           options_(options),
           vertices_(core_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
                     rule_.resolution().packing_bound()),
           smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
+          tests_residuals_(options.residuals && residuals_.active()),
           has_barriers_(!barriers.empty()) {
         report_.bound = rule_.resolution().packing_bound();
         for (const Vertex& vertex : core_.vertices) {
@@ -60,17 +69,20 @@ class Refiner {
             queue_bad(touched_cells(core_, *touched, first_new_));
         }
         do {
-            while (const auto cell = queue_.pop()) {
-                if (++treated_ % 256 == 0) {
-                    tell();
+            do {
+                while (const auto bad = queue_.pop()) {
+                    if (++treated_ % 256 == 0) {
+                        tell();
+                    }
+                    treat(*bad);
                 }
-                treat(*cell);
-            }
+            } while (test_some());
         } while (retry());
         if (options_.clean_up) {
             clean_up();
         }
         vertices_.complete();
+        report_.estimates = residuals_.asked() + vertices_.asked();
         return report_;
     }
 
@@ -104,11 +116,53 @@ class Refiner {
             }
             if (const double violation = rule_.violation_in_force(judged_cell); violation > 1) {
                 bad_.push_back({judged_cell.vertices, violation, cell});
+            } else if (tests_residuals_) {
+                bad_.push_back({judged_cell.vertices, 0, cell, judged_cell.sphere.squared_radius});
             }
         }
         std::ranges::sort(bad_, std::greater(), &BadCell::vertices);
         for (const BadCell& bad : bad_) {
-            queue_.push(bad.cell, bad.violation);
+            if (bad.violation > 0) {
+                set_estimate(queue_.push(bad.cell, bad.violation), std::nullopt);
+            } else {  // the largest first, in classes of a quarter of an octave: they are likeliest to be bad
+                untested_.push(bad.cell, std::pow(bad.squared_radius / smallest_squared_radius_, 0.25));
+            }
+        }
+    }
+
+    /// Asks for the residuals of some of the cells that wait for it. False when none does. What may have no new vertex
+    /// is not asked about.
+    bool test_some() {
+        const std::size_t size = std::clamp(core_.vertices.size() / batches_in_mesh, smallest_batch, largest_batch);
+        std::vector<JudgedCell> asked;
+        std::vector<Cell> cells;
+        bool any = false;
+        while (cells.size() < size) {
+            const auto waiting = untested_.pop();
+            if (!waiting) {
+                break;
+            }
+            any = true;
+            const JudgedCell judged_cell = judged(waiting->cell);
+            if (rule_.propose(judged_cell).reason == Reason::none) {
+                cells.push_back(waiting->cell);
+                asked.push_back(judged_cell);
+            }
+        }
+        std::vector<Residual> residuals = residuals_.of(asked);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (residuals[i].ratio > 1) {
+                set_estimate(queue_.push(cells[i], residuals[i].ratio), std::move(residuals[i].at_center));
+            }
+        }
+        tell();
+        return any;
+    }
+
+    void set_estimate(std::uint32_t slot, std::optional<Estimate> estimate) {
+        if (tests_residuals_) {
+            estimates_.resize(std::max(estimates_.size(), slot + std::size_t{1}));
+            estimates_[slot] = std::move(estimate);
         }
     }
 
@@ -134,11 +188,13 @@ class Refiner {
         at_boundary_.push_back({cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
     }
 
-    void treat(Cell cell) {
+    void treat(const CellQueue::Entry& bad) {
+        const Cell cell = bad.cell;
+        known_ = tests_residuals_ ? std::exchange(estimates_[bad.slot], std::nullopt) : std::nullopt;
         const JudgedCell judged_cell = judged(cell);
         const Proposal proposal = rule_.propose(judged_cell);
         if (proposal.projected) {
-            if (proposal.reason == Reason::none && split(cell, judged_cell, proposal.point)) {
+            if (proposal.reason == Reason::none && split(bad, proposal.point)) {
                 return;
             }
             const auto instead = rule_.instead_of_split(judged_cell);
@@ -151,13 +207,15 @@ class Refiner {
             return;
         }
         if (options_.candidates) {
-            improve(judged_cell, proposal, cell);
+            const bool flat = rule_.merely_flat(judged_cell) && rule_.violation_in_force(judged_cell) > 1;
+            improve(judged_cell, proposal, cell, flat ? candidate_count_if_flat : candidate_count);
         }
         insert(zone_);
     }
 
     /// Splits the boundary there. False when that is too near a vertex.
-    bool split(Cell cell, const JudgedCell& judged_cell, const Vec3& place) {
+    bool split(const CellQueue::Entry& bad, const Vec3& place) {
+        const Cell cell = bad.cell;
         delaunay::Triangulation::Locate_type where{};
         int i = 0;
         int j = 0;
@@ -167,7 +225,7 @@ class Refiner {
             return false;
         }
         if (std::ranges::find(zone_.cells, cell) == zone_.cells.end()) {
-            queue_.push(cell, rule_.violation_in_force(judged_cell));  // it outlives the split: its turn comes again
+            set_estimate(queue_.push(cell, bad.violation), known_);  // it outlives the split: its turn comes again
         }
         insert(zone_);
         return true;
@@ -184,7 +242,7 @@ class Refiner {
 
     /// Rule 4: where the circumcentre would make a poor star, the first of some points around it that makes a fair
     /// one, or the best of all.
-    void improve(const JudgedCell& cell, const Proposal& proposal, Cell start) {
+    void improve(const JudgedCell& cell, const Proposal& proposal, Cell start, int count) {
         double best = -1;
         for (const Facet& facet : zone_.boundary) {
             best = is_infinite(facet) ? best : star_sharpness(facet_corners(facet), zone_.point, best, 1);
@@ -195,7 +253,6 @@ class Refiner {
         std::array<std::uint64_t, 4> ids{};
         std::ranges::transform(cell.vertices, ids.begin(), [&](std::uint32_t v) { return core_.vertices[v].id; });
         BallPoints ball(ids);
-        const int count = rule_.merely_flat(cell) ? candidate_count_if_flat : candidate_count;
         for (int i = 0; i < count && best > poor_star; ++i) {
             const Vec3 point = frame_.snapped(proposal.point + candidate_radius * proposal.radius * ball.next());
             if (rule_.allows(point) && find_fairer_zone(point, start, best)) {
@@ -252,6 +309,7 @@ class Refiner {
     void insert(const Zone& zone) {
         for (const Cell cell : zone.cells) {
             queue_.forget(cell);
+            untested_.forget(cell);
         }
         outside_.clear();
         for (const auto& [cell, k] : zone.boundary) {
@@ -261,7 +319,8 @@ class Refiner {
         const auto vertex =
             triangulation.insert_in_hole(delaunay::to_cgal(zone.point), zone.cells.begin(), zone.cells.end(),
                                          zone.boundary.front().first, zone.boundary.front().second);
-        vertex->info() = vertices_.append(zone.point);
+        const bool is_known = known_ && known_->place == zone.point;
+        vertex->info() = vertices_.append(zone.point, is_known ? &*known_ : nullptr);
         rule_.note_vertex(zone.point);
         ++report_.inserted;
         star_.clear();
@@ -274,7 +333,7 @@ class Refiner {
     }
 
     void clean_up() {
-        CleanUp cleaning(core_, vertices_, rule_, search_, criteria_, frame_, options_.progress);
+        CleanUp cleaning(core_, vertices_, rule_, search_, residuals_, criteria_, frame_, options_.progress);
         const CleanUpReport done =
             touched_ == nullptr ? cleaning.run() : cleaning.run(touched_cells(core_, *touched_, first_new_));
         report_.inserted += done.inserted;
@@ -286,26 +345,32 @@ class Refiner {
     /// Nobody knows how much is left; what is done against what waits is a fair guess that never runs backwards.
     void tell() {
         const auto done = static_cast<double>(report_.inserted);
-        told_ = std::max(told_, done / (done + static_cast<double>(queue_.waiting())));
+        told_ = std::max(told_, done / (done + static_cast<double>(queue_.waiting() + untested_.waiting() / 4)));
         report_progress(options_.progress, "refine", told_);
     }
 
     struct BadCell {
         std::array<std::uint32_t, 4> vertices;
-        double violation;
+        double violation;  ///< 0: not known to be bad
         Cell cell;
+        double squared_radius = 0;
     };
 
     delaunay::Core& core_;
     InsertionRule rule_;
     ConflictSearch search_;
+    ResidualTest residuals_;
     const Criteria& criteria_;
     const Frame& frame_;
     const RefineOptions& options_;
     LiveVertices vertices_;
     double smallest_squared_radius_;
+    bool tests_residuals_;
     bool has_barriers_;
     CellQueue queue_;
+    CellQueue untested_{1};
+    std::vector<std::optional<Estimate>> estimates_;  ///< by slot of the queue
+    std::optional<Estimate> known_;                   ///< of the cell under treatment
     RefineReport report_;
     std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
     std::uint64_t inserted_before_retry_ = 0;
@@ -324,15 +389,17 @@ class Refiner {
 
 RefineReport refine(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
                     const BarrierQuery& barriers, const Criteria& criteria, std::span<const Property> properties,
-                    const ValueSource& source, const RefineOptions& options) {
-    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options).run();
+                    const ValueSource& source, const RefineOptions& options, const Samples& dropped) {
+    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options, dropped).run();
 }
 
 RefineReport refine_around(const Touched& touched, Tessellation& tessellation, VertexValues& values,
                            const Domain& domain, const Frame& frame, const BarrierQuery& barriers,
                            const Criteria& criteria, std::span<const Property> properties, const ValueSource& source,
                            const RefineOptions& options) {
-    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options).run(&touched);
+    const Samples none;
+    return Refiner(tessellation, values, domain, frame, barriers, criteria, properties, source, options, none)
+        .run(&touched);
 }
 
 }  // namespace terratet

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "tess/error.hpp"
@@ -33,7 +34,21 @@ void require_resolution(double l_min, double l_max, const std::string& where) {
 }  // namespace
 
 bool Criteria::has_variation() const {
-    return std::ranges::any_of(variation, [](const VariationLimits& v) { return v.df_min > 0 || v.df_max > 0; });
+    return has_tolerance() ||
+           std::ranges::any_of(variation, [](const VariationLimits& v) { return v.df_min > 0 || v.df_max > 0; });
+}
+
+bool Criteria::has_tolerance() const {
+    return std::ranges::any_of(variation, [](const VariationLimits& v) { return v.tolerance > 0; });
+}
+
+bool Criteria::has_residual() const {
+    return std::ranges::any_of(variation, [](const VariationLimits& v) { return v.residual > 0; });
+}
+
+double longest_on_faces(const Criteria& criteria) {
+    return criteria.has_tolerance() && !criteria.shape_everywhere ? std::numeric_limits<double>::infinity()
+                                                                  : criteria.l_max;
 }
 
 void validate(const Criteria& criteria) {
@@ -53,6 +68,13 @@ void validate(const Criteria& criteria) {
         require_limit(limits.df_min, 0, "`df_min`");
         require_limit(limits.df_max, 0, "`df_max`");
         require(limits.df_max == 0 || limits.df_min <= limits.df_max, "`df_min` is above `df_max`");
+        require_limit(limits.tolerance, 0, "`tolerance`");
+        require_limit(limits.residual, 0, "the tolerance between samples");
+    }
+    require_limit(criteria.l_min_between, 0, "`l_min` between samples");
+    require_limit(criteria.l_min_floor, 0, "`lmin_floor`");
+    for (const FinePlace& place : criteria.fine) {
+        require(std::isfinite(place.l_min) && place.l_min > 0, "a fine place's `l_min` must be a positive length");
     }
 }
 

@@ -43,6 +43,10 @@ class Check final : public Command {
         return {"check",
                 {{"Options",
                   {{{"json"}, "", "as JSON", &json_},
+                   {{"all"},
+                    "",
+                    "ask the estimator at every cell, not at 20,000 random places alone: as long as the build took",
+                    &all_},
                    accept_edited_option(accept_edited_),
                    {{"threads"}, "N", "as many as there are cores by default", &threads_},
                    {{"progress"}, "HOW", "auto (default), none, json", &progress_},
@@ -56,7 +60,7 @@ class Check final : public Command {
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verdicts_on(model, paths_.front(), display.callback());
+            verdicts = verdicts_on(model, paths_.front(), display.callback(), {.all = all_});
         }
         print(json_ ? as_json(verdicts) : as_lines(verdicts));
         const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds; });
@@ -68,6 +72,7 @@ class Check final : public Command {
     std::uint64_t threads_ = 0;
     std::string progress_ = "auto";
     bool json_ = false;
+    bool all_ = false;
     bool accept_edited_ = false;
     bool quiet_ = false;
 };

@@ -14,6 +14,7 @@
 #include "tess/error.hpp"
 #include "tools/options/choice.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/tolerance_option.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -159,19 +160,6 @@ HardHorizons parse_horizon(const std::string& text) {
     return hard;
 }
 
-std::vector<Property>::const_iterator find_property(const std::string& option, const std::string& name,
-                                                    const std::vector<Property>& properties) {
-    const auto found = std::ranges::find(properties, name, &Property::name);
-    if (found == properties.end()) {
-        std::string known;
-        for (const auto& property : properties) {
-            known += (known.empty() ? "" : ", ") + property.name;
-        }
-        throw UsageError(fmt::format("{}: there is no property '{}'; there is {}", option, name, known));
-    }
-    return found;
-}
-
 void set_limits(const std::string& option, const std::vector<std::string>& texts, double VariationLimits::*which,
                 const std::vector<Property>& properties, Criteria& criteria) {
     for (const auto& text : texts) {
@@ -182,8 +170,14 @@ void set_limits(const std::string& option, const std::vector<std::string>& texts
     }
 }
 
+bool shape_everywhere(const std::string& text) {
+    return choose<bool>("--shape", text, {{"needed", false}, {"everywhere", true}});
+}
+
 Criteria criteria_without_variation(const ModelArguments& a, double metres_per_unit) {
     Criteria criteria;
+    criteria.l_min_floor = positive_length("--lmin-floor", a.l_min_floor, metres_per_unit);
+    criteria.shape_everywhere = shape_everywhere(a.shape);
     criteria.l_min = positive_length("--lmin", a.l_min, metres_per_unit);
     criteria.l_max = positive_length("--lmax", a.l_max, metres_per_unit);
     criteria.radius_edge = a.radius_edge;
@@ -226,6 +220,12 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
     return {
         {"Resolution and criteria (lengths in the model's unit, or 20m, 65ft; 0 switches a criterion off)",
          {
+             {{"tolerance"},
+              "P=T",
+              "how far property P may be off (decades if P:log10); P=10% of its range, 10% for all; by default as much "
+              "as "
+              "explains 95 % of the samples' variance, if neither --lmin nor --df-max is given",
+              &a.tolerance},
              {{"lmin"},
               "LENGTH",
               "no new vertex comes nearer to another; by default a hundredth of the diagonal",
@@ -235,6 +235,18 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "WHERE=LMIN,LMAX",
               "others in a part: xmin,ymin,zmin,xmax,ymax,zmax=5,20 in a box, x,y,z=5,20 in the fault block of a point",
               &a.resolution},
+             {{"lmin-floor"},
+              "LENGTH",
+              "however much samples differ, --tolerance keeps them no nearer to each other; by default a 10,000th of "
+              "the "
+              "diagonal",
+              &a.l_min_floor},
+             {{"shape"},
+              "WHERE",
+              "needed (default): with --tolerance, cells that vary by less than half of it may be of any shape and "
+              "size; "
+              "everywhere",
+              &a.shape},
              {{"df-min"},
               "P=V",
               "cells in which property P varies less are left as they are (decades if P:log10)",
@@ -317,6 +329,15 @@ void check_model_arguments(const ModelArguments& a) {
             parse_limit(option, text);
         }
     }
+    for (const auto& text : a.tolerance) {
+        check_tolerance(text);
+        if (is_automatic(text) && (a.tolerance.size() > 1 || !a.l_min.empty() || !a.df_max.empty())) {
+            throw UsageError("--tolerance: auto goes with neither another tolerance nor --lmin nor --df-max");
+        }
+    }
+    if (std::ranges::any_of(a.tolerance, is_automatic) && density_mode(a.density) == DensityMode::paper) {
+        throw UsageError("--tolerance: auto is not for --density paper, which deletes samples whatever their values");
+    }
     parse_horizon(a.horizon);
     for (const auto& text : a.region_names) {
         parse_region_name(text);
@@ -381,6 +402,8 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     }
     set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
+    options.default_tolerance = std::ranges::any_of(a.tolerance, is_automatic);
+    set_tolerances(a.tolerance, site, options.criteria);
     validate_given(options.criteria);
     options.density = density_mode(a.density);
     options.barriers.spacing = fault_spacing(a, unit);

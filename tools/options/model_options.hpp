@@ -26,6 +26,9 @@ struct ModelArguments {
     std::vector<std::string> resolution;
     std::vector<std::string> df_min;
     std::vector<std::string> df_max;
+    std::vector<std::string> tolerance;
+    std::string l_min_floor;
+    std::string shape = "needed";
     double radius_edge = Criteria{}.radius_edge;
     double aspect = Criteria{}.aspect;
     double dihedral_deg = Criteria{}.dihedral_deg;

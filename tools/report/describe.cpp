@@ -78,13 +78,26 @@ Json criteria_json(const Model& model) {
               {"vmin", criteria.v_min},
               {"vmax", criteria.v_max}};
     for (std::size_t p = 0; p < criteria.variation.size(); ++p) {
-        const auto& [df_min, df_max] = criteria.variation[p];
+        const auto& [df_min, df_max, tolerance, residual, trend] = criteria.variation[p];
+        static_cast<void>(trend);
         if (df_min > 0) {
             json["df-min " + model.properties[p].name] = df_min;
         }
         if (df_max > 0) {
             json["df-max " + model.properties[p].name] = df_max;
         }
+        if (tolerance > 0) {
+            json["tolerance " + model.properties[p].name] = tolerance;
+        }
+        if (residual > tolerance) {
+            json["tolerance between samples " + model.properties[p].name] = residual;
+        }
+    }
+    if (criteria.has_tolerance()) {
+        json["lmin-between"] = criteria.l_min_between > 0 ? criteria.l_min_between : criteria.l_min;
+        json["lmin-floor"] = criteria.l_min_floor;
+        json["shape"] = criteria.shape_everywhere ? "everywhere" : "needed";
+        json["fine-places"] = criteria.fine.size();
     }
     return json;
 }

@@ -120,11 +120,8 @@ Json refine_json(const RefineReport& report) {
     for (const auto& [reason, cells] : report.skipped) {
         skipped[to_string(reason)] = cells;
     }
-    return {{"inserted", report.inserted},
-            {"moved", report.moved},
-            {"removed", report.removed},
-            {"bound", report.bound},
-            {"skipped", skipped}};
+    return {{"inserted", report.inserted},   {"moved", report.moved}, {"removed", report.removed},
+            {"estimates", report.estimates}, {"bound", report.bound}, {"skipped", skipped}};
 }
 
 Json final_json(const RunRecord& record) {
@@ -182,8 +179,17 @@ Json fidelity_json(const RunRecord& record) {
     Json fidelity = Json::object();
     const auto& all = record.build->report.fidelity;
     for (std::size_t p = 0; p < all.size(); ++p) {
-        fidelity[record.model->model().properties[p].name] = {
-            {"rms", all[p].rms}, {"max", all[p].max}, {"count", all[p].count}};
+        Json& json = fidelity[record.model->model().properties[p].name];
+        json = {{"rms", all[p].rms}, {"max", all[p].max},    {"count", all[p].count},      {"sd", all[p].sd},
+                {"r2", all[p].r2},   {"tolerance", nullptr}, {"beyond_tolerance", nullptr}};
+        if (all[p].tolerance > 0) {
+            json["tolerance"] = all[p].tolerance;
+            json["beyond_tolerance"] = all[p].beyond_tolerance;
+            json["reasons"] = Json::object();
+            for (const auto& [reason, count] : all[p].reasons) {
+                json["reasons"][to_string(reason)] = count;
+            }
+        }
     }
     return fidelity;
 }

@@ -81,6 +81,22 @@ std::string empty_block_text(const EmptyBlock& block, const std::string& unit) {
                        block.of_all ? "" : " of " + properties);
 }
 
+/// "Fidelity  K: R2 0.97, rms 0.1 of sd 0.6, largest 0.4 decades at 1,292 samples; 3 beyond the tolerance 0.2: …".
+std::string fidelity_text(const Property& property, const Fidelity& fit) {
+    std::string text =
+        fmt::format("{}: R2 {:.3g}, rms {:.3g} of sd {:.3g}, largest {:.3g}{} at {}", property.name, fit.r2, fit.rms,
+                    fit.sd, fit.max, property.scale == Scale::log10 ? " decades" : "", counted(fit.count, "sample"));
+    if (fit.tolerance > 0) {
+        text += fmt::format("; {} beyond the tolerance {:.3g}", grouped(fit.beyond_tolerance), fit.tolerance);
+        const char* separator = ": ";
+        for (const auto& [reason, count] : fit.reasons) {
+            text += fmt::format("{}{} {}", separator, grouped(count), to_string(reason));
+            separator = ", ";
+        }
+    }
+    return text;
+}
+
 std::string build_lines(const BuildRecord& build, const Model& model) {
     const BuildReport& report = build.report;
     const char* unit = model.frame.unit == "metre" ? "m" : model.frame.unit.c_str();
@@ -126,9 +142,7 @@ std::string build_lines(const BuildRecord& build, const Model& model) {
     for (std::size_t p = 0; p < report.fidelity.size(); ++p) {
         const auto& property = model.properties[p];
         const auto& fit = report.fidelity[p];
-        out += line("Fidelity",
-                    fmt::format("{}: rms {:.3g}, largest {:.3g}{} at {}", property.name, fit.rms, fit.max,
-                                property.scale == Scale::log10 ? " decades" : "", counted(fit.count, "sample")));
+        out += line("Fidelity", fidelity_text(property, fit));
     }
     return out;
 }

@@ -20,14 +20,15 @@ Option accept_edited_option(bool& accept_edited) {
             &accept_edited};
 }
 
-std::vector<Verdict> verdicts_on(const Model& model, const std::string& path, const Progress& progress) {
+std::vector<Verdict> verdicts_on(const Model& model, const std::string& path, const Progress& progress,
+                                 const VerifyOptions& options) {
     const auto factory = [plan = parse_estimator_plan(model.estimator)](const Model& of, const BarrierQuery& faults) {
         return make_model_source(of, faults, plan);
     };
     const auto history = load_history(path);
     const bool edited =
         std::ranges::any_of(history, [](const HistoryEntry& entry) { return entry.can_undo && !entry.undone; });
-    return verify(model, factory, progress, edited);
+    return verify(model, factory, progress, edited, options);
 }
 
 Model open_model(const std::string& path, bool accept_edited, const Progress& progress, StoredState* state) {

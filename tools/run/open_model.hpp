@@ -24,6 +24,7 @@ Model open_model(const std::string& path, bool accept_edited, const Progress& pr
                  StoredState* state = nullptr);
 
 /// Each guarantee, with the model's own estimator. \param path  where its journal tells whether edits stand
-std::vector<Verdict> verdicts_on(const Model& model, const std::string& path, const Progress& progress);
+std::vector<Verdict> verdicts_on(const Model& model, const std::string& path, const Progress& progress,
+                                 const VerifyOptions& options = {});
 
 }  // namespace terratet::tools

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/run/pipeline.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
 
 #include "interp/estimator_spec.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/tolerance_option.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -26,6 +28,12 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
             chosen.emplace_back(name, short_number(value));
         }
     };
+    for (std::size_t p = 0; p < model.properties.size() && std::ranges::any_of(a.tolerance, is_automatic); ++p) {
+        const double tolerance = p < model.criteria.variation.size() ? model.criteria.variation[p].tolerance : 0;
+        if (tolerance > 0) {
+            chosen.emplace_back("tolerance", model.properties[p].name + "=" + short_number(tolerance));
+        }
+    }
     add(!a.l_min.empty(), "lmin", model.criteria.l_min);
     add(!a.l_max.empty(), "lmax", model.criteria.l_max);
     if (a.extent.empty()) {

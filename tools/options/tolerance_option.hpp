@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Terratet authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file
+/// --tolerance: "P=T", "P=N%" of its samples' range, "N%" of each property's, or "auto".
+
+#include <string>
+#include <vector>
+
+#include "tess/criteria.hpp"
+#include "tess/site.hpp"
+
+namespace terratet::tools {
+
+/// Throws UsageError, for `option`, when there is none of that name.
+std::vector<Property>::const_iterator find_property(const std::string& option, const std::string& name,
+                                                    const std::vector<Property>& properties);
+
+/// Is it to be chosen from the samples?
+bool is_automatic(const std::string& tolerance);
+
+/// Throws UsageError for what is no tolerance.
+void check_tolerance(const std::string& text);
+
+/// Throws UsageError: also for a property there is none of, and for a category.
+void set_tolerances(const std::vector<std::string>& texts, const Site& site, Criteria& criteria);
+
+}  // namespace terratet::tools

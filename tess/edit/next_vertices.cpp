@@ -141,10 +141,10 @@ class VertexChooser {
             kept_[sample] = false;
             box.extend(after_.samples.positions[sample]);
         }
-        PointGrid kept = kept_within(box.grown(resolution_.largest_l_min()));
+        PointGrid kept = kept_within(box.grown(resolution_.largest_sample_l_min()));
         for (const auto& [sample, vertex] : asked) {
             const Vec3& p = after_.samples.positions[sample];
-            kept_[sample] = !kept.any_within(p, resolution_.l_min(p));
+            kept_[sample] = !kept.any_within(p, resolution_.sample_l_min(p));
             if (kept_[sample]) {
                 kept.insert(p);
             } else {
@@ -155,7 +155,7 @@ class VertexChooser {
     }
 
     [[nodiscard]] PointGrid kept_within(const Box3& box) const {
-        PointGrid kept(resolution_.largest_l_min());
+        PointGrid kept(resolution_.largest_sample_l_min());
         for (std::size_t i = 0; i < kept_.size(); ++i) {
             if (kept_[i] && box.contains(after_.samples.positions[i])) {
                 kept.insert(after_.samples.positions[i]);
@@ -188,11 +188,11 @@ class VertexChooser {
                 box.extend(p);
             }
         }
-        PointGrid kept = kept_within(box.grown(resolution_.largest_l_min()));
+        PointGrid kept = kept_within(box.grown(resolution_.largest_sample_l_min()));
         for (const std::uint32_t i : asked) {
             go_on_();
             const Vec3& p = after_.samples.positions[i];
-            if (barriers_.protecting_barrier(p) < 0 && !kept.any_within(p, resolution_.l_min(p))) {
+            if (barriers_.protecting_barrier(p) < 0 && !kept.any_within(p, resolution_.sample_l_min(p))) {
                 kept.insert(p);
                 kept_[i] = true;
                 come(p, Role::sample, static_cast<std::int32_t>(i), 0);
@@ -268,8 +268,8 @@ class VertexChooser {
             for (const Vertex& vertex : next_.in) {
                 obstacles.push_back(vertex.position);
             }
-            for (const Vec3& p : face_grid(after_.domain.hull, after_.criteria.l_min, after_.criteria.l_max, obstacles,
-                                           after_.frame, {})) {
+            for (const Vec3& p : face_grid(after_.domain.hull, after_.criteria.l_min, longest_on_faces(after_.criteria),
+                                           obstacles, after_.frame, {})) {
                 come(p, Role::domain, -1, 0);
             }
             return;

@@ -222,9 +222,9 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
          {
              {{"tolerance"},
               "P=T",
-              "how far property P may be off (decades if P:log10); P=10% of its range, 10% for all; by default as much "
-              "as "
-              "explains 95 % of the samples' variance, if neither --lmin nor --df-max is given",
+              "how far property P may be off (decades if P:log10); P=10% of its range, 10% for all; auto: as much as "
+              "keeps "
+              "the samples' variance, without --lmin and --df-max",
               &a.tolerance},
              {{"lmin"},
               "LENGTH",

@@ -164,7 +164,7 @@ TEST_CASE("R7: refining to a tolerance again inserts, moves and removes nothing,
         BuildReport report;
         const auto made = built(world, layered, report);
         CHECK(report.refine.inserted > 0);
-        for (const Verdict& verdict : verify(made->model, source_of(layered), {}, {.all = true})) {
+        for (const Verdict& verdict : verify(made->model, source_of(layered), {}, false, {.all = true})) {
             INFO(verdict.guarantee << " " << verdict.detail);
             CHECK(verdict.holds);
         }

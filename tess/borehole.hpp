@@ -39,6 +39,11 @@ class Trajectory {
     /// \pre All numbers are finite, depths not negative.
     Trajectory(const Vec3& collar, std::vector<SurveyStation> stations, Desurvey method = Desurvey::minimum_curvature);
 
+    /// The path through points that were measured as such, straight from each to the next; above the first and below
+    /// the last it goes on straight. Depths along it are those given, whatever the distances between the points.
+    /// \pre As many depths as points, at least one; ascending, none twice, the first not negative; all finite.
+    Trajectory(std::vector<double> depths, std::vector<Vec3> points);
+
     /// Position at a measured depth (also between stations: along the arc; below the last: straight on). O(log n).
     [[nodiscard]] Vec3 position(double depth) const;
 

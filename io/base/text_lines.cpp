@@ -57,10 +57,10 @@ bool LineReader::fill() {
         throw InputError(path_ + ", line " + std::to_string(number_ + 1) +
                          ": longer than 1 MiB; this is not a text file of the expected kind");
     }
-    buffer_.resize(std::max(buffer_.size(), end_ + chunk));
+    buffer_.resize(std::max(buffer_.size(), end_ + 2 * chunk));  // UTF-16 grows by half at most
     const GdalScope quiet(path_);
-    const std::size_t got = VSIFReadL(buffer_.data() + end_, 1, chunk, static_cast<VSILFILE*>(file_.get()));
-    end_ += got;
+    std::size_t got = VSIFReadL(buffer_.data() + end_, 1, chunk, static_cast<VSILFILE*>(file_.get()));
+    bytes_ += got;
     if (got < chunk) {
         if (quiet.failed() || !VSIFEofL(static_cast<VSILFILE*>(file_.get()))) {
             throw InputError(path_ + ": reading failed after line " + std::to_string(number_) +
@@ -68,7 +68,86 @@ bool LineReader::fill() {
         }
         at_end_ = true;
     }
-    return got > 0;
+    if (encoding_ == Encoding::unknown) {
+        const std::string_view head(buffer_.data() + end_, std::min<std::size_t>(got, 4));
+        const bool wide = head.size() == 4;
+        encoding_ =
+            head.starts_with("\xFF\xFE") || (wide && head[0] != 0 && head[1] == 0 && head[2] != 0 && head[3] == 0)
+                ? Encoding::utf16_le
+            : head.starts_with("\xFE\xFF") || (wide && head[0] == 0 && head[1] != 0 && head[2] == 0 && head[3] != 0)
+                ? Encoding::utf16_be
+                : Encoding::bytes;
+        begin_ = encoding_ == Encoding::bytes && head.starts_with("\xEF\xBB\xBF") ? end_ + 3 : begin_;
+    }
+    got = encoding_ == Encoding::bytes ? got : decode_utf16(end_, got);
+    const std::size_t before = end_;
+    end_ += got;
+    end_lines_at_lone_cr(before);
+    return !at_end_ || got > 0;
+}
+
+/// Replaces `count` bytes of UTF-16 from `begin` on by UTF-8, and returns how many bytes that is.
+std::size_t LineReader::decode_utf16(std::size_t begin, std::size_t count) {
+    const auto* const raw = reinterpret_cast<const unsigned char*>(buffer_.data() + begin);
+    units_.insert(units_.end(), raw, raw + count);
+    std::string text;
+    std::size_t used = 0;
+    const auto unit = [&](std::size_t at) {
+        const unsigned lo = units_[encoding_ == Encoding::utf16_le ? at : at + 1];
+        const unsigned hi = units_[encoding_ == Encoding::utf16_le ? at + 1 : at];
+        return hi << 8U | lo;
+    };
+    for (; used + 1 < units_.size(); used += 2) {
+        unsigned code = unit(used);
+        if (code >= 0xD800 && code < 0xDC00) {
+            if (used + 3 >= units_.size()) {
+                break;  // its second half comes with the next bytes
+            }
+            const unsigned low = unit(used + 2);
+            const bool pair = low >= 0xDC00 && low < 0xE000;
+            code = pair ? 0x10000 + ((code - 0xD800) << 10U) + (low - 0xDC00) : 0xFFFD;
+            used += pair ? 2 : 0;
+        }
+        if (code == 0xFEFF) {
+            continue;  // the byte order mark
+        }
+        const auto put = [&](unsigned byte) { text += static_cast<char>(byte); };
+        if (code < 0x80) {
+            put(code);
+        } else if (code < 0x800) {
+            put(0xC0 | code >> 6U);
+            put(0x80 | (code & 0x3FU));
+        } else if (code < 0x10000) {
+            put(0xE0 | code >> 12U);
+            put(0x80 | (code >> 6U & 0x3FU));
+            put(0x80 | (code & 0x3FU));
+        } else {
+            put(0xF0 | code >> 18U);
+            put(0x80 | (code >> 12U & 0x3FU));
+            put(0x80 | (code >> 6U & 0x3FU));
+            put(0x80 | (code & 0x3FU));
+        }
+    }
+    units_.erase(units_.begin(), units_.begin() + static_cast<std::ptrdiff_t>(used));
+    std::copy(text.begin(), text.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin));
+    return text.size();
+}
+
+/// A CR that no LF follows ends a line too: it becomes one. `begin` is where the bytes read last begin; a CR before it
+/// was left open.
+void LineReader::end_lines_at_lone_cr(std::size_t begin) {
+    std::size_t at = begin > begin_ && begin < end_ && buffer_[begin - 1] == '\r' ? begin - 1 : begin;
+    while (at < end_) {
+        const auto* const found = static_cast<const char*>(std::memchr(buffer_.data() + at, '\r', end_ - at));
+        if (!found) {
+            return;
+        }
+        at = static_cast<std::size_t>(found - buffer_.data());
+        if (at + 1 < end_ && buffer_[at + 1] != '\n') {
+            buffer_[at] = '\n';
+        }
+        ++at;
+    }
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -78,6 +157,7 @@ bool LineReader::next(std::string_view& line) {
             end_ > searched ? static_cast<const char*>(std::memchr(buffer_.data() + searched, '\n', end_ - searched))
                             : nullptr;
         const std::size_t unread = end_ - begin_;
+        const std::size_t open = unread > 0 && buffer_[end_ - 1] == '\r' ? 1 : 0;  // perhaps the end of a line
         if (found || (!fill() && begin_ < end_)) {
             const char* const first = buffer_.data() + begin_;
             const char* const last = found ? found : buffer_.data() + end_;
@@ -93,7 +173,7 @@ bool LineReader::next(std::string_view& line) {
         if (begin_ == end_ && at_end_) {
             return false;
         }
-        searched = begin_ + unread;
+        searched = std::max(begin_, begin_ + unread - open);
     }
 }
 

@@ -14,7 +14,8 @@
 
 namespace terratet {
 
-/// Reads a file line by line with bounded memory. LF and CRLF end a line.
+/// Reads a file line by line with bounded memory. LF, CRLF and a lone CR end a line. UTF-16, with byte order mark or
+/// without, comes as UTF-8; a byte order mark is no part of the first line.
 class LineReader {
   public:
     /// Throws InputError when the file cannot be opened.
@@ -27,9 +28,13 @@ class LineReader {
 
     [[nodiscard]] std::int64_t number() const { return number_; }  ///< of the line last returned, from 1
     [[nodiscard]] bool terminated() const { return terminated_; }  ///< did that line end in LF?
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }   ///< read from the file so far
 
   private:
+    enum class Encoding : std::uint8_t { unknown, bytes, utf16_le, utf16_be };
     bool fill();
+    std::size_t decode_utf16(std::size_t begin, std::size_t count);
+    void end_lines_at_lone_cr(std::size_t begin);
 
     struct Closer {
         void operator()(void* file) const;
@@ -40,6 +45,9 @@ class LineReader {
     std::size_t begin_ = 0;  ///< unread part of the buffer
     std::size_t end_ = 0;
     std::int64_t number_ = 0;
+    std::uint64_t bytes_ = 0;
+    Encoding encoding_ = Encoding::unknown;
+    std::vector<unsigned char> units_;  ///< UTF-16: bytes of a character that is not whole yet
     bool terminated_ = false;
     bool at_end_ = false;
 };

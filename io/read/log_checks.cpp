@@ -18,18 +18,20 @@ struct LogDepths {
     int id = -1;
     int from = -1;
     int to = -1;  ///< −1: a point log
+    bool one_hole = false;
 
     LogDepths(const Table& log, const ColumnNames& names)
         : id(find_optional_column(log, Meaning::id, names)),
           from(find_optional_column(log, Meaning::from, names)),
-          to(find_optional_column(log, Meaning::to, names)) {
+          to(find_optional_column(log, Meaning::to, names)),
+          one_hole(!log.stated.hole_names.empty()) {
         if (from < 0 || to < 0) {
             const int depth = find_optional_column(log, Meaning::depth, names);
             from = depth >= 0 ? depth : from;
             to = -1;
         }
     }
-    [[nodiscard]] bool usable() const { return id >= 0 && from >= 0; }
+    [[nodiscard]] bool usable() const { return (id >= 0 || one_hole) && from >= 0; }
     [[nodiscard]] int deepest() const { return to >= 0 ? to : from; }
 };
 
@@ -43,7 +45,8 @@ void for_each_row(const Table& log, const LogDepths& columns, const Holes& holes
     std::string_view last;
     auto hole = holes.end();
     for (std::size_t row = 0; row < log.rows(); ++row) {
-        const std::string_view id = log.cells[static_cast<std::size_t>(columns.id)][row];
+        const std::string_view id = columns.one_hole ? std::string_view(log.stated.hole_names.front())
+                                                     : log.cells[static_cast<std::size_t>(columns.id)][row];
         if (row == 0 || id != last) {
             hole = holes.find(id);
             last = id;
@@ -194,7 +197,8 @@ void accept_elevations(Table& log, const Holes& holes, const SiteInputs& inputs,
     }
 }
 
-void note_beyond_length(const Table& log, const Holes& holes, const SiteInputs& inputs, Diagnostics& diagnostics) {
+void note_beyond_length(const Table& log, const Holes& holes, const Crs& target, const SiteInputs& inputs,
+                        Diagnostics& diagnostics) {
     const LogDepths columns(log, inputs.columns);
     if (!columns.usable()) {
         return;
@@ -208,7 +212,7 @@ void note_beyond_length(const Table& log, const Holes& holes, const SiteInputs& 
         if (!depth || !(hole.stated_length > 0)) {
             return;
         }
-        const double length = hole.stated_length / hole.unit_factor;
+        const double length = hole.stated_length / depth_factor(log, hole.unit_factor, target);
         double& share = deepest[hole.id];
         share = std::max(share, *depth / length);
         ++records;

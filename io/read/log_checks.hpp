@@ -15,6 +15,7 @@ void accept_elevations(Table& log, const Holes& holes, const SiteInputs& inputs,
 
 /// Notes records below the lengths that the collars state, with the first one's line, and the unit that would fit when
 /// all holes exceed theirs.
-void note_beyond_length(const Table& log, const Holes& holes, const SiteInputs& inputs, Diagnostics& diagnostics);
+void note_beyond_length(const Table& log, const Holes& holes, const Crs& target, const SiteInputs& inputs,
+                        Diagnostics& diagnostics);
 
 }  // namespace terratet

@@ -86,6 +86,9 @@ const char* describe(DipConvention convention) {
 
 /// What a column of dips means: as told; by its name where all values are 0…180; else by the majority of the signs.
 DipConvention dip_convention(const Table& table, int column, DipConvention told, Diagnostics& diagnostics) {
+    if (table.stated.inclination) {
+        return DipConvention::inclination;
+    }
     if (told != DipConvention::automatic) {
         return told;
     }
@@ -251,20 +254,22 @@ using Surveys = std::map<std::string, std::map<double, SurveyStation>>;
 void read_survey(const Table& table, const Collars& collars, const Crs& target, const SiteInputs& inputs,
                  Surveys& surveys, Diagnostics& diagnostics) {
     const std::size_t first_rejection = diagnostics.rejected.size();
-    const int id_column = require_column(table, Meaning::id, inputs.columns);
+    const bool one_hole = !table.stated.hole_names.empty();
+    const int id_column = one_hole ? -1 : require_column(table, Meaning::id, inputs.columns);
     const int depth_column = require_column(table, Meaning::depth, inputs.columns);
     require_column(table, Meaning::dip, inputs.columns);
     require_column(table, Meaning::azimuth, inputs.columns);
     const DirectionColumns columns = direction_columns(table, inputs, diagnostics);
     bool any = false;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        const std::string id(cell(table, id_column, row));
+        const std::string id(one_hole ? std::string_view(table.stated.hole_names.front())
+                                      : cell(table, id_column, row));
         const auto collar = collars.find(id);
         std::string problem;
         if (collar == collars.end()) {
             problem = id.empty() ? "no id" : fmt::format("hole {} has no collar", id);
         }
-        const double factor = problem.empty() ? collar->second.unit_factor : 1;
+        const double factor = problem.empty() ? depth_factor(table, collar->second.unit_factor, target) : 1;
         const double depth =
             problem.empty() ? parse_depth(table, depth_column, row, factor, target.metres_per_unit, problem) : 0;
         const std::optional<Direction> found = problem.empty() ? direction(table, columns, row, problem) : std::nullopt;
@@ -297,6 +302,11 @@ std::vector<SurveyStation> stations_of(const std::map<double, SurveyStation>& su
 
 }  // namespace
 
+double depth_factor(const Table& table, double hole_factor, const Crs& target) {
+    const double factor = table.stated.metres_per_depth / target.metres_per_unit;
+    return factor == 0 ? hole_factor : std::abs(factor - 1) < 1e-5 ? 1 : factor;
+}
+
 double parse_depth(const Table& table, int column, std::size_t row, double unit_factor, double metres_per_unit,
                    std::string& problem) {
     const std::string_view text = cell(table, column, row);
@@ -315,21 +325,29 @@ double parse_depth(const Table& table, int column, std::size_t row, double unit_
 }
 
 Holes read_boreholes(const std::vector<PlacedTable>& collar_tables, const std::vector<Crs>& collar_crs,
-                     const std::vector<Table>& survey_tables, const Crs& target, const SiteInputs& inputs,
-                     Diagnostics& diagnostics) {
+                     const std::vector<Table>& survey_tables, const std::vector<HolePath>& paths, const Crs& target,
+                     const SiteInputs& inputs, Diagnostics& diagnostics) {
     Collars collars;
     for (std::size_t i = 0; i < collar_tables.size(); ++i) {
         read_collars(collar_tables[i], collar_crs[i], target, inputs, collars, diagnostics);
     }
     Surveys surveys;
     for (const Table& table : survey_tables) {
-        read_survey(table, collars, target, inputs, surveys, diagnostics);
+        const std::string& own = table.stated.hole_names.empty() ? "" : table.stated.hole_names.front();
+        if (own.empty() || !surveys.contains(own)) {  // a file's own survey stands behind a table of surveys
+            read_survey(table, collars, target, inputs, surveys, diagnostics);
+        }
     }
     Holes holes;
     std::size_t by_collar = 0;
     std::size_t vertical = 0;
     for (const auto& [id, collar] : collars) {
         std::vector<SurveyStation> stations;
+        if (const auto path = std::ranges::find(paths, id, &HolePath::hole); path != paths.end()) {
+            holes.emplace(id, Hole{id, Trajectory(path->depths, path->points), collar.unit_factor, path->depths.back(),
+                                   collar.length});
+            continue;
+        }
         if (const auto survey = surveys.find(id); survey != surveys.end()) {
             stations = stations_of(survey->second);
         } else if (collar.direction) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/read/logs/well_file.hpp"
 #include "io/read/read_positions.hpp"
 #include "io/site_inputs.hpp"
 #include "tess/diagnostics.hpp"
@@ -40,10 +41,13 @@ inline constexpr double max_depth_m = 50e3;
 /// Holes from collars that are in the target CRS already. Of collars of one id, and of stations of one hole at one
 /// depth, the first counts and the others are rejected: this is the one place where the order of rows matters. A hole
 /// without survey takes the direction in its collar's record, else it is vertical (both noted with their number).
-/// Throws InputError: no id, depth, dip or azimuth column, no usable row in a table.
+/// A path counts instead of a survey. Throws InputError: no id, depth, dip or azimuth column, no usable row in a table.
 Holes read_boreholes(const std::vector<PlacedTable>& collars, const std::vector<Crs>& collar_crs,
-                     const std::vector<Table>& surveys, const Crs& target, const SiteInputs& inputs,
-                     Diagnostics& diagnostics);
+                     const std::vector<Table>& surveys, const std::vector<HolePath>& paths, const Crs& target,
+                     const SiteInputs& inputs, Diagnostics& diagnostics);
+
+/// Target units in a unit of a table's depths: its own where it states one, else the hole's.
+double depth_factor(const Table& table, double hole_factor, const Crs& target);
 
 /// The depth in a cell, in units of `unit_factor`; −1, with the reason in `problem`, when it has none.
 double parse_depth(const Table& table, int column, std::size_t row, double unit_factor, double metres_per_unit,

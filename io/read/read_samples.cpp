@@ -30,18 +30,21 @@ struct LogRow {
 };
 
 LogColumns log_columns(const Table& table, const ColumnNames& names) {
-    LogColumns columns{find_column(table, Meaning::id, names), find_optional_column(table, Meaning::from, names),
+    const bool one_hole = !table.stated.hole_names.empty();
+    LogColumns columns{one_hole ? -1 : find_column(table, Meaning::id, names),
+                       find_optional_column(table, Meaning::from, names),
                        find_optional_column(table, Meaning::to, names)};
+    const bool no_id = columns.id < 0 && !one_hole;
     const bool intervals = columns.from >= 0 && columns.to >= 0;
     if (!intervals) {
         columns.from = find_column(table, Meaning::depth, names);
         columns.to = -1;
     }
-    if (columns.id < 0 || columns.from < 0) {
+    if (no_id || columns.from < 0) {
         throw InputError(fmt::format("{}: no column for {}; columns: {}; name {} with `columns`", table.file,
-                                     columns.id < 0 ? "the hole's id" : "depths, neither from and to nor depth",
+                                     no_id ? "the hole's id" : "depths, neither from and to nor depth",
                                      fmt::join(table.columns, ", "),
-                                     columns.id < 0 ? "one (id=NAME)" : "them (from=NAME, to=NAME or depth=NAME)"));
+                                     no_id ? "one (id=NAME)" : "them (from=NAME, to=NAME or depth=NAME)"));
     }
     return columns;
 }
@@ -67,18 +70,22 @@ bool has_value(const std::vector<ValueColumn>& columns, std::size_t row) {
 LogRow locate(const Table& table, const LogColumns& columns, std::size_t row, Holes& holes, const Crs& target,
               std::string& problem) {
     LogRow result{row, nullptr, 0, 0};
-    const std::string id(table.cells[static_cast<std::size_t>(columns.id)][row]);
+    const std::string id(columns.id < 0 ? std::string_view(table.stated.hole_names.front())
+                                        : table.cells[static_cast<std::size_t>(columns.id)][row]);
     const auto hole = holes.find(id);
     if (hole == holes.end()) {
         problem = id.empty() ? "no id" : fmt::format("hole {} has no collar", id);
         return result;
     }
     result.hole = &hole->second;
+    const double factor = depth_factor(table, result.hole->unit_factor, target);
     const auto depth = [&](int column) {
-        return parse_depth(table, column, row, result.hole->unit_factor, target.metres_per_unit, problem);
+        return parse_depth(table, column, row, factor, target.metres_per_unit, problem);
     };
     result.from = depth(columns.from);
-    result.to = columns.intervals() && problem.empty() ? depth(columns.to) : result.from;
+    const bool point = !columns.intervals() || (!table.stated.meanings.empty() &&
+                                                table.cells[static_cast<std::size_t>(columns.to)][row].empty());
+    result.to = !point && problem.empty() ? depth(columns.to) : result.from;
     if (problem.empty() && result.from > result.to) {
         problem = fmt::format("from {} is below to {}", table.cells[static_cast<std::size_t>(columns.from)][row],
                               table.cells[static_cast<std::size_t>(columns.to)][row]);
@@ -91,17 +98,20 @@ void reject_overlaps(const Table& table, std::vector<LogRow>& rows, Diagnostics&
     std::ranges::stable_sort(rows, {}, [](const LogRow& row) { return std::tie(row.hole->id, row.from, row.to); });
     std::vector<LogRow> kept;
     std::vector<Rejected> overlaps;
+    const LogRow* before = nullptr;  // the interval above
     for (const LogRow& row : rows) {
-        const bool same_hole = !kept.empty() && kept.back().hole == row.hole;
+        const bool test = row.from == row.to && !table.stated.meanings.empty();  // at a depth, amidst intervals
+        const bool same_hole = before != nullptr && before->hole == row.hole;
         const double rounding = 1e-3 * (row.to - row.from);
-        const bool repeated = same_hole && row.from == kept.back().from && row.to == kept.back().to;
-        if (same_hole && (repeated || row.from < kept.back().to - rounding)) {
+        const bool repeated = same_hole && row.from == before->from && row.to == before->to;
+        if (!test && same_hole && (repeated || row.from < before->to - rounding)) {
             overlaps.push_back({table.file, table.lines[row.row],
                                 fmt::format("hole {}: the interval overlaps the one on line {}, which counts",
-                                            row.hole->id, table.lines[kept.back().row])});
-        } else {
-            kept.push_back(row);
+                                            row.hole->id, table.lines[before->row])});
+            continue;
         }
+        kept.push_back(row);
+        before = test ? before : &row;
     }
     std::ranges::sort(overlaps, {}, &Rejected::line);
     std::ranges::move(overlaps, std::back_inserter(diagnostics.rejected));
@@ -141,7 +151,7 @@ void read_log(const Table& table, Holes& holes, const Crs& target, const SiteInp
     if (columns.intervals()) {
         reject_overlaps(table, rows, diagnostics);
     }
-    if (rows.empty() && !values.empty()) {
+    if (rows.empty() && !values.empty() && !table.stated.one_of_several) {
         throw_no_usable_row(table, diagnostics, first_rejection);
     }
     note_empty_records(table, empty, diagnostics);

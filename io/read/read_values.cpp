@@ -85,13 +85,21 @@ std::vector<bool> columns_with_meaning(const Table& table, const ColumnNames& co
         if (const int column = find_optional_column(table, meaning, columns); column >= 0) {
             result[static_cast<std::size_t>(column)] = true;
         }
-        for (std::size_t column = 0; column < table.columns.size(); ++column) {
+        for (std::size_t column = 0; table.stated.meanings.empty() && column < table.columns.size(); ++column) {
             if (std::ranges::find(aliases(meaning), normal_header(table.columns[column])) != aliases(meaning).end()) {
                 result[column] = true;
             }
         }
     }
+    for (const int column : table.stated.asides) {
+        result[static_cast<std::size_t>(column)] = true;
+    }
     return result;
+}
+
+/// The unit that a column states, in its header or beside it.
+std::string unit_of(const Table& table, std::size_t column) {
+    return table.stated.units.empty() ? split_unit(table.columns[column]).second : table.stated.units[column];
 }
 
 /// A column taken for a property.
@@ -135,7 +143,7 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
                             table.file, name, numbers, filled, name, name));
             continue;
         }
-        result.push_back({Property{name, split_unit(name).second, Scale::linear, Kind::continuous, {}}, column});
+        result.push_back({Property{name, unit_of(table, column), Scale::linear, Kind::continuous, {}}, column});
     }
     return result;
 }
@@ -162,7 +170,7 @@ std::vector<Choice> wanted_columns(const Table& table, const std::vector<Propert
         }
         result.push_back({property, column});
         if (property.unit.empty()) {
-            result.back().property.unit = split_unit(*found).second;
+            result.back().property.unit = unit_of(table, column);
         }
     }
     return result;
@@ -304,13 +312,13 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
     seen_columns_.insert(seen_columns_.end(), table.columns.begin(), table.columns.end());
     const std::vector<Choice> choices =
         wanted_.empty() ? numeric_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
-    if (choices.empty() && wanted_.empty()) {
+    if (choices.empty() && wanted_.empty() && !table.stated.one_of_several) {
         throw InputError(
             fmt::format("{}: no numeric column to take for a property; columns: {}; `properties` "
                         "NAME:categorical takes a column of classes",
                         table.file, fmt::join(table.columns, ", ")));
     }
-    if (choices.empty()) {
+    if (choices.empty() && !table.stated.one_of_several) {
         diagnostics.note(table.file + ": has none of the properties asked for and is not used");
     }
     const std::vector<int> qualified_by = qualifiers(table, columns);

@@ -68,6 +68,26 @@ Trajectory::Trajectory(const Vec3& collar, std::vector<SurveyStation> stations, 
     }
 }
 
+Trajectory::Trajectory(std::vector<double> depths, std::vector<Vec3> points)
+    : positions_(std::move(points)), method_(Desurvey::tangential) {
+    assert(!depths.empty() && depths.size() == positions_.size() && depths.front() >= 0);
+    for (std::size_t i = 0; i + 1 < depths.size(); ++i) {
+        directions_.push_back((positions_[i + 1] - positions_[i]) / (depths[i + 1] - depths[i]));
+    }
+    const Vec3 last = directions_.empty() ? Vec3{0, 0, -1} : directions_.back();
+    directions_.push_back(length(last) > 0 ? last / length(last) : Vec3{0, 0, -1});
+    if (depths.front() > 0) {
+        positions_.insert(positions_.begin(), positions_.front() - depths.front() * directions_.front());
+        directions_.insert(directions_.begin(), directions_.front());
+        depths.insert(depths.begin(), 0);
+    }
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const Vec3& way = directions_[i];
+        const double azimuth = std::atan2(way.x, way.y) / degree;
+        stations_.push_back({depths[i], azimuth, angle_between(way, Vec3{0, 0, -1}) / degree});
+    }
+}
+
 Vec3 Trajectory::position(double depth) const {
     const auto below = std::ranges::upper_bound(stations_, depth, {}, &SurveyStation::depth);
     const auto station = static_cast<std::size_t>(std::max<std::ptrdiff_t>(below - stations_.begin(), 1) - 1);

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "io/base/output_file.hpp"
+#include "io/write/write_hole_svg.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/printable.hpp"
+#include "tools/options/site_options.hpp"
 #include "tools/report/describe.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
@@ -12,37 +16,33 @@
 namespace terratet::tools {
 namespace {
 
-/// A layer of triangles is a table too, of attributes only: what it is for are its surfaces.
-nlohmann::ordered_json describe_input(const Source& source) {
-    Diagnostics diagnostics;
-    if (is_gocad(source.path)) {
-        return describe_surfaces(read_surfaces(source, SurfaceKind::fault, {}, diagnostics), diagnostics);
-    }
-    const Table table = read_table(source);
-    const bool has_places = !table.points.empty() || find_column(table, Meaning::x, {}) >= 0;
-    if (!has_places) {
-        try {
-            const RawSurfaces surfaces = read_surfaces(source, SurfaceKind::fault, {}, diagnostics);
-            return describe_surfaces(surfaces, diagnostics);
-        } catch (const InputError&) {
-            // A plain table, then.
-        }
-    }
-    return describe_table(table);
-}
-
 class Info final : public Command {
   public:
     Syntax syntax() override {
-        return {"info",
-                {{"Options",
-                  {{{"json"}, "", "as JSON", &json_},
-                   accept_edited_option(accept_edited_),
-                   {{"digest"}, "", "of a model: the hash of its content, and nothing else", &digest_}}}},
-                {"FILE", 1, 1, &paths_}};
+        Syntax result{"info",
+                      {{"Options",
+                        {{{"json"}, "", "as JSON", &json_},
+                         accept_edited_option(accept_edited_),
+                         {{"digest"}, "", "of a model: the hash of its content, and nothing else", &digest_},
+                         {{"holes"}, "", "quality of the boreholes that the inputs name, instead of a FILE", &holes_},
+                         {{"o", "output"}, "FILE.svg", "with --holes: a picture of the worst hole", &output_},
+                         {{"overwrite"}, "", "replace that picture if it exists", &overwrite_}}}},
+                      {"FILE", 0, 1, &paths_}};
+        append(result, hole_options(site_));
+        return result;
     }
 
     int run(const std::vector<Given>&) override {
+        const bool named = !site_.boreholes.empty() || !site_.surveys.empty() || !site_.logs.empty();
+        if (holes_ || named) {
+            return report_holes();
+        }
+        if (paths_.empty()) {
+            throw UsageError("info: name a FILE, or the boreholes with --holes --boreholes FILE");
+        }
+        if (!output_.empty()) {
+            throw UsageError("info: -o is for the picture of --holes");
+        }
         const Source source = parse_source(paths_.front());
         std::string text;
         if (is_model(source.path)) {
@@ -51,12 +51,31 @@ class Info final : public Command {
         } else if (digest_) {
             throw InputError(source.path + ": not a Terratet model; --digest is for models");
         } else {
-            text = rendered(describe_input(source));
+            text = rendered(describe_file(source, column_names(site_.columns)));
         }
         return print(text);
     }
 
   private:
+    int report_holes() {
+        if (!holes_) {
+            throw UsageError("info: --boreholes, --survey and --log go with --holes");
+        }
+        if (!paths_.empty()) {
+            throw UsageError(fmt::format("info: --holes takes its inputs by --boreholes, --survey and --log, not '{}'",
+                                         paths_.front()));
+        }
+        if (!output_.empty()) {
+            require_writable(output_, overwrite_);
+        }
+        Diagnostics diagnostics;
+        const HoleQuality quality = hole_quality(site_inputs(site_, false), diagnostics);
+        if (!output_.empty() && quality.worst() != nullptr) {
+            write_hole_svg(quality, *quality.worst(), output_, overwrite_);
+        }
+        return print(rendered(describe_holes(quality, diagnostics)));
+    }
+
     [[nodiscard]] std::string rendered(const nlohmann::ordered_json& description) const {
         return json_ ? json_text(description) : as_text(description);
     }
@@ -65,6 +84,10 @@ class Info final : public Command {
     bool json_ = false;
     bool accept_edited_ = false;
     bool digest_ = false;
+    bool holes_ = false;
+    bool overwrite_ = false;
+    std::string output_;
+    SiteArguments site_;
 };
 
 }  // namespace
@@ -73,11 +96,16 @@ CommandEntry info_command() {
     return {
         "info",
         "what is in an input or a model",
-        "FILE[,layer=L]",
-        "Says what a model, a table or a file of surfaces holds: coordinates, columns and their ranges, surfaces and "
-        "their dips, criteria and history.",
-        {"terratet info site.gpkg", "terratet info fault.ts", "terratet info --json 'wells.gpkg,layer=collar'",
-         "terratet info --digest site.gpkg"},
+        "FILE[,layer=L] | --holes --boreholes FILE [--survey FILE] [--log FILE]",
+        "Says what a file is and holds: a model, a table and its layers, a well log (LAS, AGS, GEF, GOCAD, RMS), "
+        "surfaces, "
+        "or an output (glTF, VTK, OpenVDB, rasters): coordinates, columns and their ranges, what was guessed, defects "
+        "with "
+        "their reasons. With --holes, how good the boreholes are: overlaps, gaps, missing surveys, kinks, duplicates, "
+        "holes without logs, each counted and listed.",
+        {"terratet info site.gpkg", "terratet info well.las", "terratet info --json 'wells.gpkg,layer=collar'",
+         "terratet info --digest site.gpkg",
+         "terratet info --holes --boreholes collar.csv --survey survey.csv --log assay.csv -o worst.svg"},
         [] { return std::make_unique<Info>(); }};
 }
 

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/options/site_options.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -93,9 +96,15 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
     return {
         {"Inputs (FILE is anything GDAL opens, as FILE[,layer=L][,srs=CRS][,where=SQL])",
          {
-             {{"boreholes"}, "FILE", "collar table: hole, x, y, z", &a.boreholes},
+             {{"boreholes"},
+              "FILE",
+              "collar table: hole, x, y, z; a workbook or database with all three; LAS, AGS, GEF, wells",
+              &a.boreholes},
              {{"survey"}, "FILE", "hole, depth, azimuth, dip; without it holes are vertical", &a.surveys},
-             {{"log"}, "FILE", "values along holes: hole, from, to (or depth), properties", &a.logs},
+             {{"log"},
+              "FILE",
+              "values along holes: hole, from, to (or depth), properties; LAS, AGS, GEF; a folder",
+              &a.logs},
              {{"samples"}, "FILE", "loose points: x, y, z, properties", &a.samples},
              {{"faults"}, "FILE", "GOCAD TSurf, TIN or triangles, or points x, y, z, fault", &a.faults},
              {{"surface"},
@@ -155,6 +164,18 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
              {{"oo"}, "KEY=VALUE", "open option for GDAL's driver", &a.open_options},
          }},
     };
+}
+
+std::vector<OptionGroup> hole_options(SiteArguments& a) {
+    static constexpr std::array<std::string_view, 8> wanted{
+        "boreholes", "survey", "log", "columns", "s_srs", "desurvey", "dip-convention", "depth-unit"};
+    std::vector<OptionGroup> groups = site_options(a);
+    for (OptionGroup& group : groups) {
+        std::erase_if(group.options, [](const Option& option) {
+            return std::ranges::find(wanted, option.names.front()) == wanted.end();
+        });
+    }
+    return groups;
 }
 
 ColumnNames column_names(const std::vector<std::string>& texts) {

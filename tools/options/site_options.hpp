@@ -44,6 +44,9 @@ struct SiteArguments {
 
 std::vector<OptionGroup> site_options(SiteArguments& arguments);
 
+/// Those of site_options that say what boreholes are, for commands that look at nothing else.
+std::vector<OptionGroup> hole_options(SiteArguments& arguments);
+
 /// Of --columns MEANING=COLUMN. Throws UsageError.
 ColumnNames column_names(const std::vector<std::string>& texts);
 

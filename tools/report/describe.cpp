@@ -10,34 +10,12 @@
 
 #include "tools/options/printable.hpp"
 #include "tools/options/text.hpp"
+#include "tools/report/describe_parts.hpp"
 
 namespace terratet::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Smallest and largest of what is there.
-struct Range {
-    double lo = INFINITY;
-    double hi = -INFINITY;
-    std::size_t count = 0;
-
-    void add(double value) {
-        if (std::isfinite(value)) {
-            lo = std::min(lo, value);
-            hi = std::max(hi, value);
-            ++count;
-        }
-    }
-};
-
-Json box_json(const Box3& box) {
-    return box.empty() ? Json() : Json{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
-}
-
-std::string crs_text(const std::string& name) {
-    return name.empty() ? "none" : name;
-}
 
 Json property_json(const Model& model, std::size_t p) {
     const Property& property = model.properties[p];
@@ -164,43 +142,6 @@ Json describe_model(const Model& model, const std::vector<JournalEntry>& journal
     json["journal"] = Json::array();
     for (const auto& entry : journal) {
         json["journal"].push_back({{"edit", entry.edit}, {"time", entry.time}, {"command", entry.command}});
-    }
-    return json;
-}
-
-Json describe_table(const Table& table) {
-    Json json{{"kind", "table"}, {"crs", crs_text(table.crs.name)}, {"rows", table.rows()}};
-    Box3 box;
-    for (const auto& point : table.points) {
-        if (point) {
-            box.extend(*point);
-        }
-    }
-    if (!box.empty()) {
-        json["extent"] = box_json(box);
-    }
-    json["columns"] = Json::array();
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        Range range;
-        std::size_t empty = 0;
-        std::size_t censored = 0;
-        for (const auto& cell : table.cells[c]) {
-            range.add(parse_number(cell).value_or(NAN));
-            censored += parse_bound(cell) ? 1 : 0;
-            empty += cell.empty() ? 1 : 0;
-        }
-        Json column{{"name", table.columns[c]}};
-        if (range.count > 0) {
-            column["min"] = range.lo;
-            column["max"] = range.hi;
-        }
-        column["numbers"] = range.count;
-        if (censored > 0) {
-            column["censored"] = censored;
-        }
-        column["words"] = table.rows() - range.count - censored - empty;
-        column["empty"] = empty;
-        json["columns"].push_back(column);
     }
     return json;
 }

@@ -252,7 +252,7 @@ int find_optional_column(const Table& table, Meaning meaning, const ColumnNames&
             }
         }
     }
-    return column_of_alias(table, meaning);
+    return table.stated.meanings.empty() ? column_of_alias(table, meaning) : table.stated.column(meaning);
 }
 
 int find_column(const Table& table, Meaning meaning, const ColumnNames& overrides) {

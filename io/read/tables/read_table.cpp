@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -20,6 +21,7 @@
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/library_failure.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/base/well_format.hpp"
 #include "io/read/tables/csv_file.hpp"
 #include "io/read/tables/number_style.hpp"
 #include "tess/error.hpp"
@@ -244,6 +246,20 @@ Table read_once(const Source& source, bool& csv) {
     return table;
 }
 
+/// A well file is a table of nonsense to GDAL.
+void refuse_wells(const Source& source) {
+    static const std::map<WellFormat, const char*> names{{WellFormat::las, "a LAS well log"},
+                                                         {WellFormat::ags, "an AGS file"},
+                                                         {WellFormat::gef, "a GEF file"},
+                                                         {WellFormat::gocad, "a GOCAD well"},
+                                                         {WellFormat::rms, "an RMS well"}};
+    const auto found = source.layer.empty() && source.sql.empty() ? names.find(well_format(source.path)) : names.end();
+    if (found != names.end()) {
+        throw InputError(fmt::format("{}: is {}, not a table; name it with `boreholes` or `logs`", source.describe(),
+                                     found->second));
+    }
+}
+
 /// By GDAL: what is no text, and text with a filter, a statement or geometries.
 Table read_by_gdal(const Source& source) {
     bool csv = false;
@@ -312,6 +328,7 @@ Table read_text(const Source& source, const CsvOptions& options) {
 }
 
 Table read_any(const Source& source) {
+    refuse_wells(source);
     const auto options = csv_options(source);
     const bool own_layer = source.layer.empty() || source.layer == CPLGetBasename(source.path.c_str());
     Table table = options && own_layer && is_text_table(source) ? read_text(source, *options) : read_by_gdal(source);

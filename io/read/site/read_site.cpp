@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/read/join_ids.hpp"
 #include "io/read/log_checks.hpp"
@@ -13,6 +14,7 @@
 #include "io/read/read_positions.hpp"
 #include "io/read/read_samples.hpp"
 #include "io/read/read_values.hpp"
+#include "io/read/site/hole_inputs.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 #include "tess/site/site_box.hpp"
@@ -22,10 +24,7 @@ namespace terratet {
 namespace {
 
 /// All inputs as read: tables untyped, places in their own CRS.
-struct Inputs {
-    std::vector<PlacedTable> collars;
-    std::vector<Table> surveys;
-    std::vector<Table> logs;
+struct Inputs : HoleInputs {
     std::vector<PlacedTable> samples;
     std::vector<RawSurfaces> surfaces;
 };
@@ -81,28 +80,12 @@ RawSurfaces read_surface_file(Source source, SurfaceKind kind, const SiteInputs&
     return raw;
 }
 
-PlaceOptions place_options(const SiteInputs& inputs) {
-    PlaceOptions options{inputs.z_positive, {}};
-    std::ranges::transform(inputs.nulls, std::back_inserter(options.nulls), parse_null);
-    return options;
-}
-
 Inputs read_inputs(const SiteInputs& inputs, Diagnostics& diagnostics, const Checkpoint& checkpoint) {
-    Inputs read;
+    Inputs read{read_hole_inputs(inputs, diagnostics), {}, {}};
     const auto placed = [&](const Source& source) {
         return place(read_noted(source, diagnostics), source, inputs.source_crs, inputs.columns, diagnostics,
                      place_options(inputs));
     };
-    for (const Source& source : inputs.boreholes) {
-        read.collars.push_back(placed(source));
-    }
-    for (const Source& source : inputs.surveys) {
-        read.surveys.push_back(read_noted(source, diagnostics));
-    }
-    checkpoint.pass(0.1);
-    for (const Source& source : inputs.logs) {
-        read.logs.push_back(read_noted(source, diagnostics));
-    }
     for (const Source& source : inputs.samples) {
         read.samples.push_back(placed(source));
     }
@@ -253,12 +236,29 @@ void to_crs(RawSurfaces& raw, const Crs& target, Diagnostics& diagnostics) {
     }
 }
 
+/// A path's depths come to the target's unit as its points do.
+void to_crs_depths(HolePath& path, const Crs& own, const Crs& target) {
+    if (!std::ranges::all_of(path.points, is_acceptable)) {
+        throw InputError(
+            fmt::format("hole {}: its path cannot be transformed from {} to {}; is its coordinate system right?",
+                        path.hole, own.name, target.name));
+    }
+    const double factor = own.metres_per_unit / target.metres_per_unit;
+    for (double& depth : path.depths) {
+        depth *= std::abs(factor - 1) < 1e-5 ? 1 : factor;
+    }
+}
+
 /// Brings everything to the target; returns the CRSs that the collar tables were in, whose units their depths have.
 std::vector<Crs> unify(Inputs& read, const Crs& target, Diagnostics& diagnostics) {
     std::vector<Crs> collar_crs;
     for (PlacedTable& placed : read.collars) {
         collar_crs.push_back(placed.crs);
         to_crs(placed, target, diagnostics);
+    }
+    for (std::size_t i = 0; i < read.paths.size(); ++i) {
+        CrsTransform(read.path_crs[i], target).apply(read.paths[i].points);
+        to_crs_depths(read.paths[i], read.path_crs[i], target);
     }
     for (PlacedTable& placed : read.samples) {
         to_crs(placed, target, diagnostics);
@@ -267,6 +267,18 @@ std::vector<Crs> unify(Inputs& read, const Crs& target, Diagnostics& diagnostics
         to_crs(raw, target, diagnostics);
     }
     return collar_crs;
+}
+
+/// Of several tables each may do without; all together may not.
+[[noreturn]] void throw_no_property(const std::vector<Table>& logs) {
+    std::vector<std::string> columns;
+    for (const Table& log : logs) {
+        columns.insert(columns.end(), log.columns.begin(), log.columns.end());
+    }
+    throw InputError(
+        fmt::format("{}: no numeric column to take for a property; columns: {}; `properties` "
+                    "NAME:categorical takes a column of classes",
+                    logs.front().file, fmt::join(columns, ", ")));
 }
 
 // --- One frame -----------------------------------------------------------------------------------------------------
@@ -376,18 +388,25 @@ Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& c
 
     for (std::vector<Table>* const tables : {&read.surveys, &read.logs}) {
         for (Table& table : *tables) {
-            join_ids(table, read.collars, inputs.columns, diagnostics);
+            if (table.stated.hole_names.empty()) {
+                join_ids(table, read.collars, inputs.columns, diagnostics);
+            }
         }
     }
-    Holes holes = read_boreholes(read.collars, collar_crs, read.surveys, target, inputs, diagnostics);
+    Holes holes = read_boreholes(read.collars, collar_crs, read.surveys, read.paths, target, inputs, diagnostics);
     checkpoint.pass(0.8);
 
     PropertyCatalogue catalogue(inputs.properties, inputs.nulls);
     std::vector<SampleRecord> records;
     for (Table& log : read.logs) {
-        accept_elevations(log, holes, inputs, diagnostics);
-        note_beyond_length(log, holes, inputs, diagnostics);
+        if (log.stated.meanings.empty()) {
+            accept_elevations(log, holes, inputs, diagnostics);
+        }
+        note_beyond_length(log, holes, target, inputs, diagnostics);
         read_log(log, holes, target, inputs, catalogue, records, diagnostics);
+    }
+    if (!read.logs.empty() && catalogue.properties().empty() && inputs.properties.empty()) {
+        throw_no_property(read.logs);
     }
     for (const PlacedTable& placed : read.samples) {
         read_loose_samples(placed, inputs, catalogue, records, diagnostics);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// A table as a file holds it: columns of text. What it means is found by its columns' names (io/read/tables/columns.cpp),
-/// or stated by a format that knows.
+/// A table as a file holds it: columns of text. What it means is found by its columns' names
+/// (io/read/tables/columns.cpp), or stated by a format that knows.
 
 #include <cstdint>
 #include <optional>

@@ -198,8 +198,8 @@ void LasRows::add_wrapped(std::int64_t number, std::uint64_t bytes) {
     if (table_.table().rows() == 0 && wrapped_cells_.size() == 1) {
         depth_alone_ = tokens_.size() > 1;
     }
-    const bool new_row = depth_alone_ && tokens_.size() == 1 && wrapped_cells_.size() > 1 &&
-                         wrapped_cells_.size() + 1 != columns;
+    const bool new_row =
+        depth_alone_ && tokens_.size() == 1 && wrapped_cells_.size() > 1 && wrapped_cells_.size() + 1 != columns;
     if (new_row || wrapped_cells_.size() + tokens_.size() > columns) {
         if (!wrapped_cells_.empty()) {
             reject(number, fmt::format("the wrapped row before this line has {} columns where {} are defined",

@@ -59,7 +59,8 @@ class Reader {
     }
 
     void add_collars(const Source& source, Table table) {
-        result_.collars.push_back(place(std::move(table), source, inputs_.source_crs, inputs_.columns, diagnostics_, place_options(inputs_)));
+        result_.collars.push_back(
+            place(std::move(table), source, inputs_.source_crs, inputs_.columns, diagnostics_, place_options(inputs_)));
         names_.add(result_.collars.back().table, inputs_.columns);
     }
 

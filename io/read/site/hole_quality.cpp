@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "io/read/join_ids.hpp"
 #include "io/read/read_boreholes.hpp"
 #include "io/read/site/hole_inputs.hpp"
 #include "tess/error.hpp"
@@ -69,7 +70,14 @@ class Inspector {
         std::vector<Crs> collar_crs;
         for (PlacedTable& placed : read.collars) {
             collar_crs.push_back(placed.crs);
-            placed.north_deg.assign(placed.points.size(), 0);
+            to_crs(placed, Crs(placed.crs), said_);  // where they are: only directions and heights are made ready
+        }
+        for (auto* tables : {&read.surveys, &read.logs}) {
+            for (Table& table : *tables) {
+                if (table.stated.hole_names.empty()) {
+                    join_ids(table, read.collars, inputs_.columns, said_);
+                }
+            }
         }
         SiteInputs grid = inputs_;
         grid.azimuth = AzimuthReference::grid;

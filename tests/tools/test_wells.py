@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Well files as inputs: LAS, AGS, GEF, GOCAD and RMS wells, workbooks; where they land, and what is refused."""
 import json
+import re
+import shlex
 import sqlite3
 import struct
 import subprocess
 import unittest
 import zipfile
 
-from terratet import Case
+from terratet import ROOT, Case
 
 LOCAL = ["-s_srs", "local", "--lmin", "1", "--lmax", "50"]
 
@@ -70,7 +72,7 @@ AGS4 = '''"GROUP","PROJ"
 '''
 
 
-class Wells(Case):
+class Files(Case):
     def points(self, *arguments):
         """The samples of the model, as they were measured."""
         self.succeed("build", *arguments, "--overwrite", "-q", "-o", "m.gpkg")
@@ -86,6 +88,22 @@ class Wells(Case):
         base.close()
         return rows
 
+    def database(self, name, tables):
+        path = self.folder / name
+        with sqlite3.connect(path) as base:
+            for table, (columns, rows) in tables.items():
+                base.execute(f"CREATE TABLE \"{table}\" ({', '.join(columns)})")
+                base.executemany(f"INSERT INTO \"{table}\" VALUES ({', '.join('?' * len(columns))})", rows)
+        base.close()
+        return path
+
+    COLLARS = (["hole TEXT", "x REAL", "y REAL", "z REAL"], [("A", 0, 0, 0), ("B", 100, 0, 0)])
+    SURVEY = (["hole TEXT", "depth REAL", "azimuth REAL", "dip REAL"], [("A", 0, 90, 0), ("B", 0, 0, 90)])
+    ASSAY = (["hole TEXT", '"from" REAL', '"to" REAL', "Cu REAL"], [("A", 0, 10, 1), ("A", 10, 20, 2), ("B", 0, 10, 3)])
+    LITHOLOGY = (["hole TEXT", '"from" REAL', '"to" REAL', "rock TEXT"], [("A", 0, 20, "tuff"), ("B", 0, 10, "dyke")])
+
+
+class Wells(Files):
     def info(self, path):
         return json.loads(self.succeed("info", "--json", path).stdout)
 
@@ -289,20 +307,6 @@ more of it"
 
     # --- Containers --------------------------------------------------------------------------------------------------
 
-    def database(self, name, tables):
-        path = self.folder / name
-        with sqlite3.connect(path) as base:
-            for table, (columns, rows) in tables.items():
-                base.execute(f"CREATE TABLE \"{table}\" ({', '.join(columns)})")
-                base.executemany(f"INSERT INTO \"{table}\" VALUES ({', '.join('?' * len(columns))})", rows)
-        base.close()
-        return path
-
-    COLLARS = (["hole TEXT", "x REAL", "y REAL", "z REAL"], [("A", 0, 0, 0), ("B", 100, 0, 0)])
-    SURVEY = (["hole TEXT", "depth REAL", "azimuth REAL", "dip REAL"], [("A", 0, 90, 0), ("B", 0, 0, 90)])
-    ASSAY = (["hole TEXT", '"from" REAL', '"to" REAL', "Cu REAL"], [("A", 0, 10, 1), ("A", 10, 20, 2), ("B", 0, 10, 3)])
-    LITHOLOGY = (["hole TEXT", '"from" REAL', '"to" REAL', "rock TEXT"], [("A", 0, 20, "tuff"), ("B", 0, 10, "dyke")])
-
     def test_a_database_is_known_by_what_its_layers_hold(self):
         path = self.database("d.sqlite", {"notes": (["text TEXT"], [("x",)]), "t1": self.ASSAY, "t2": self.COLLARS,
                                           "t3": self.SURVEY, "t4": self.LITHOLOGY})
@@ -334,6 +338,39 @@ more of it"
             archive.writestr("w.las", las(well="WELL. W-1 :\nX.M 5 :\nY.M 7 :\nEKB.M 0 :\n"))
         rows = self.points("--boreholes", f"/vsizip/{self.folder}/w.zip/w.las", *LOCAL)
         self.assertEqual(self.heights(rows, "GR"), {-1: 10, -2: 20, -3: 30})
+
+
+class Documented(Files):
+    """Each row of docs/inputs.md: files of that kind, and what is typed."""
+
+    def test_each_row_of_the_page_runs(self):
+        own = "WELL. W-1 :\nX.M 500000 :\nY.M 6000000 :\nEKB.M 100 :\n"
+        (self.folder / "logs").mkdir()
+        for name, text in {
+                "w.las": las(well=own), "a.las": las(well="WELL. A :\n"), "b.las": las(well="UWI. 2 :\n"),
+                "logs/a.las": las(well="WELL. A :\n"), "site.ags": AGS4,
+                "collar.csv": "hole,uwi,x,y,z\nA,1,500000,6000000,10\nB,2,500100,6000000,10\nBH1,3,500000,6000100,10\nBH2,4,500100,6000100,10\n",
+                "cpt.gef": "#GEFID= 1, 1, 0\n#TESTID= T\n#XYID= 31000, 120000, 480000\n#ZID= 31000, 5\n#COLUMNINFO= 1, m, length, 1\n"
+                           "#COLUMNINFO= 2, MPa, qc, 2\n#EOH=\n1 3\n2 4\n",
+                "well.wl": "GOCAD Well 1\nHEADER {\nname:P\n}\nWREF 500000 6000000 0\nPATH 0 0 0 0\nPATH 9 -9 0 0\nWELL_CURVE\nPROPERTY GR\n"
+                           "REC 5 7\nREC 7 8\nEND_CURVE\nEND\n",
+                "well.rmswell": "1.0\nU\nO 500000 6000000\n1\nPoro UNK lin\n500000 6000000 0 0.1\n500000 6000000 9 0.2\n"}.items():
+            self.write(name, text)
+        base = self.database("site.sqlite", {"a": self.COLLARS, "b": self.SURVEY, "c": self.ASSAY})
+        self.assertTrue(base.exists())
+        self.database("site2.sqlite", {"old": self.COLLARS, "new": self.COLLARS, "assay": self.ASSAY})
+        with zipfile.ZipFile(self.folder / "w.zip", "w") as archive:
+            archive.writestr("w.las", las(well=own))
+        page = (ROOT / "docs" / "inputs.md").read_text()
+        table = page.split("## I have")[1].split("\n## ")[0]
+        typed = [words for row in re.findall(r"^\| .* \| (`--.*) \|$", table, re.M) for words in re.findall(r"`(--[^`]*)`", row)]
+        self.assertGreater(len(typed), 11)
+        for words in typed:
+            arguments = shlex.split(words)
+            if "--boreholes" not in arguments:  # "or …": the end of the command before
+                arguments = ["--boreholes", "collar.csv", *arguments, "-s_srs", "EPSG:32633"]
+            with self.subTest(words):
+                self.succeed("build", *arguments, "--lmin", "1", "--lmax", "100", "--overwrite", "-q", "-o", "model.gpkg")
 
 
 class Info(Case):

@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "io/read/logs/well_file.hpp"
+#include "io/read/meshes/read_mesh.hpp"
 #include "io/read/site/hole_layers.hpp"
 #include "io/read/site/input_files.hpp"
-#include "io/read/logs/well_file.hpp"
 #include "io/write/seen_output.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
@@ -283,7 +284,7 @@ Json describe_table_or_surfaces(const Source& source, const ColumnNames& names) 
     const auto surfaces = [&] {
         return describe_surfaces(read_surfaces(source, SurfaceKind::fault, names, diagnostics), diagnostics);
     };
-    if (is_gocad(source.path)) {
+    if (is_gocad(source.path) || mesh_format(source.path)) {
         return surfaces();
     }
     const Table table = read_table(source);
@@ -311,7 +312,7 @@ Json describe_file(const Source& source, const ColumnNames& names) {
         return describe_well(source);
     }
     Json layers = Json::array();
-    if (!is_gocad(source.path)) {
+    if (!is_gocad(source.path) && !mesh_format(source.path)) {
         try {
             for (const HoleLayer& layer : hole_layers(source, names)) {
                 layers.push_back(

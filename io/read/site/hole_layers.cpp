@@ -32,6 +32,9 @@ std::vector<HoleLayer> hole_layers(const Source& source, const ColumnNames& name
     if (!source.layer.empty() || !source.sql.empty() || source.path.find("/vsistdin/") != std::string::npos) {
         return {};
     }
+    if (is_text_table(source)) {
+        return {};  // one table, and split here rather than by GDAL
+    }
     const GdalScope scope(source.path);
     const Dataset dataset = open_vector(source);
     std::vector<HoleLayer> layers;

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
+#include <numbers>
 
-#include "interp/plan/extrapolation.hpp"
 #include "interp/base/morton.hpp"
+#include "interp/plan/extrapolation.hpp"
 
 namespace terratet {
 namespace {
@@ -91,10 +93,19 @@ std::vector<Fold> folds_of(const Samples& samples, std::span<const std::uint32_t
     return max_folds > 0 ? shared(std::move(folds), max_folds) : folds;
 }
 
+SomeSites::SomeSites(std::size_t count, std::size_t wanted)
+    : share_(count <= wanted ? 1 : static_cast<double>(wanted) / static_cast<double>(count)) {}
+
+bool SomeSites::contains(std::uint32_t site) const {
+    double whole = 0;
+    return share_ == 1 || std::modf(site * std::numbers::phi, &whole) < share_;
+}
+
 void for_each_left_out(
     std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
     std::span<const FoldColumn> columns,
-    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit) {
+    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit,
+    const SomeSites& targets) {
     std::vector<std::uint32_t> fold_of(sites.size());
     for (std::uint32_t f = 0; f < folds.size(); ++f) {
         for (const std::uint32_t i : folds[f]) {
@@ -102,6 +113,7 @@ void for_each_left_out(
         }
     }
     struct Result {
+        std::vector<std::uint32_t> sites;
         std::vector<Weights> weights;
         std::vector<MadeUp> added;  ///< of each query, by column
     };
@@ -112,12 +124,17 @@ void for_each_left_out(
                 kept.push_back(i);
             }
         }
+        Result result;
         std::vector<ValueQuery> queries;
         for (const std::uint32_t i : folds[f]) {
-            queries.push_back({sites[i], -1, 0});
+            if (targets.contains(i)) {
+                result.sites.push_back(i);
+                queries.push_back({sites[i], -1, 0});
+            }
         }
-        Result result{std::vector<Weights>(queries.size()), std::vector<MadeUp>(queries.size() * columns.size())};
-        if (kept.empty()) {
+        result.weights.resize(queries.size());
+        result.added.resize(queries.size() * columns.size());
+        if (kept.empty() || queries.empty()) {
             return result;
         }
         const auto estimator = make(kept, f);
@@ -138,9 +155,9 @@ void for_each_left_out(
         tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(results.size()),
                           [&](std::uint32_t k) { results[k] = leave_out(begin + k); });
         for (std::uint32_t k = 0; k < results.size(); ++k) {
-            const auto& [weights, added] = results[k];
+            const auto& [sites_of, weights, added] = results[k];
             for (std::size_t i = 0; i < weights.size(); ++i) {
-                visit(folds[begin + k][i], weights[i], std::span(added).subspan(i * columns.size(), columns.size()));
+                visit(sites_of[i], weights[i], std::span(added).subspan(i * columns.size(), columns.size()));
             }
         }
     }

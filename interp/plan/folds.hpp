@@ -42,12 +42,23 @@ struct FoldColumn {
     ColumnTraits traits;
 };
 
-/// Calls `visit` with each site, its weights from the sites of all other folds and for each column what slopes add to
-/// the weighted mean, one at a time, fold by fold; terms name sites as `sites` does. No terms: the others give no value
-/// there. Costs one estimator per fold; folds run in parallel, `make` must stand that.
+/// About `wanted` of `count` sites, or all: spread over any rows of them, however long the rows are.
+class SomeSites {
+  public:
+    SomeSites(std::size_t count, std::size_t wanted);
+    [[nodiscard]] bool contains(std::uint32_t site) const;
+
+  private:
+    double share_;
+};
+
+/// Calls `visit` with each site of `targets`, its weights from the sites of all other folds and for each column what
+/// slopes add to the weighted mean, one at a time, fold by fold; terms name sites as `sites` does. No terms: the others
+/// give no value there. Costs one estimator per fold; folds run in parallel, `make` must stand that.
 void for_each_left_out(
     std::span<const Vec3> sites, const std::vector<std::vector<std::uint32_t>>& folds, const PartialEstimator& make,
     std::span<const FoldColumn> columns,
-    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit);
+    const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit,
+    const SomeSites& targets = {0, 0});
 
 }  // namespace terratet

@@ -15,7 +15,9 @@
 namespace terratet {
 namespace {
 
-constexpr std::size_t judged_max = 20'000;
+constexpr std::size_t judged_max = 5000;
+constexpr std::size_t boreholes_many = 100;  // of which fewer groups do, still of twelve boreholes or more:
+constexpr std::size_t folds_of_many = 8;     // each costs a tessellation
 
 template <typename T>
 std::vector<T> picked(std::span<const T> from, std::span<const std::uint32_t> which) {
@@ -40,22 +42,22 @@ std::vector<Weights> leave_out(const ErrorTask& task, const std::vector<std::vec
         return make_estimator(spec, std::move(sites), &task.barriers, std::move(boreholes));
     };
     std::vector<Weights> weights(task.sites.size());
-    const std::size_t step = (task.sites.size() + judged_max - 1) / judged_max;
     std::vector<FoldColumn> columns;
     for (const auto& column : task.columns) {
         columns.push_back({column.scaled, column.traits});
     }
-    for_each_left_out(task.sites, folds, make, columns, [&](std::uint32_t site, const auto& left_out, auto added) {
-        for (std::size_t c = 0; c < studies.size(); ++c) {
-            if (studies[c]) {
-                const double plain = weighted_mean(left_out.terms, task.columns[c].scaled);
-                studies[c]->add(site, plain + added[c].value, left_out);
+    for_each_left_out(
+        task.sites, folds, make, columns,
+        [&](std::uint32_t site, const auto& left_out, auto added) {
+            for (std::size_t c = 0; c < studies.size(); ++c) {
+                if (studies[c]) {
+                    const double plain = weighted_mean(left_out.terms, task.columns[c].scaled);
+                    studies[c]->add(site, plain + added[c].value, left_out);
+                }
             }
-        }
-        if (site % step == 0) {
             weights[site] = left_out;
-        }
-    });
+        },
+        SomeSites(task.sites.size(), judged_max));
     return weights;
 }
 
@@ -67,7 +69,9 @@ StatedError LearnedErrors::of(const Vec3& place, const Weights& weights, double 
 }
 
 std::vector<std::optional<LearnedErrors>> learn_errors(const ErrorTask& task) {
-    const auto folds = folds_of(task.samples, task.which, task.max_folds);
+    const std::size_t boreholes = folds_of(task.samples, task.which).size();
+    const std::size_t most = boreholes < boreholes_many ? task.max_folds : std::min(task.max_folds, folds_of_many);
+    const auto folds = folds_of(task.samples, task.which, most);
     const bool own_variance =
         make_estimator(task.spec, {task.sites.front()}, &task.barriers, {task.boreholes.front()})->has_variance();
     std::vector<std::optional<LearnedErrors>> out(task.columns.size());
@@ -84,7 +88,7 @@ std::vector<std::optional<LearnedErrors>> learn_errors(const ErrorTask& task) {
     if (nothing_to_learn || (all_known && own_variance)) {
         return out;
     }
-    const ErrorGroups groups(task.sites.size(), folds, folds.size(), folds_of(task.samples, task.which).size());
+    const ErrorGroups groups(task.sites.size(), folds, folds.size(), boreholes);
     std::vector<std::optional<ErrorStudy>> studies(out.size());
     for (std::size_t c = 0; c < out.size(); ++c) {
         if (out[c]) {

@@ -112,17 +112,23 @@ void LocalError::pool(const BarrierQuery* barriers, std::size_t count) {
                      [&](std::uint32_t a, std::uint32_t b) { return distance_[a] < distance_[b]; });
     std::vector<ValueQuery> places(sites_.size());
     std::transform(sites_.begin(), sites_.end(), places.begin(), [](const Vec3& p) { return ValueQuery{p, -1, 0}; });
-    const SiteIndex index(sites_, barriers);
+    std::vector<std::uint32_t> judged(order_);
+    std::sort(judged.begin(), judged.end());
+    std::vector<Vec3> judged_sites(judged.size());
+    std::transform(judged.begin(), judged.end(), judged_sites.begin(), [&](std::uint32_t i) { return sites_[i]; });
     std::vector<std::uint32_t> found(sites_.size(), 0);
     near_.resize(sites_.size() * count);
+    if (judged.empty()) {
+        places.clear();
+        judged_sites = {{}};  // an index has one
+    }
+    const SiteIndex index(judged_sites, barriers);
     in_spatial_order(places, [&](std::span<const std::uint32_t> run) {
         std::vector<NearSite> near;
         for (const std::uint32_t i : run) {
             index.nearest(places[i], count, near);
             for (const auto& [squared_distance, site, slot] : near) {
-                if (!std::isnan(squared_error_[site])) {
-                    near_[i * count + found[i]++] = site;
-                }
+                near_[i * count + found[i]++] = judged[site];
             }
         }
     });

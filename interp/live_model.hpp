@@ -23,7 +23,8 @@ class LiveModel {
     explicit LiveModel(Model model);
 
     /// Builds (tess/build.hpp says how, and what it throws). options.estimator names the estimator, empty: natural
-    /// neighbour; the model keeps it as it was fitted.
+    /// neighbour; its anisotropy, where left open, is chosen for each property (plan/estimator_choice.hpp), and the model
+    /// keeps it as it was chosen and fitted.
     explicit LiveModel(Site site, const BuildOptions& options = {}, const Progress& progress = {});
     LiveModel(Site site, const BuildOptions& options, BuildReport& report, const Progress& progress = {});
     /// From a state of another one on: what is edited here leaves the other as it is.

@@ -56,8 +56,8 @@ struct ModelEstimatorOptions {
 class ModelEstimator {
   public:
     /// Samples are at distinct positions (merge_coincident). Both `model` and `faults` must outlive this.
-    /// What `plan` leaves open is fitted to each property's samples, and with options.uncertainty the calibrations that
-    /// it lacks are found (plan() tells).
+    /// What `plan` wants chosen (anisotropy=auto, the estimator auto) is chosen, what it leaves open is fitted to each
+    /// property's samples, and with options.uncertainty the calibrations that it lacks are found (plan() tells).
     ModelEstimator(const Model& model, const BarrierQuery& barriers, const EstimatorPlan& plan,
                    std::shared_ptr<EstimatorCounters> counters = {}, const ModelEstimatorOptions& options = {});
     ~ModelEstimator();

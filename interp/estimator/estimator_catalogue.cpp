@@ -73,6 +73,13 @@ Options anisotropy(const std::string& ratio3) {
                                .implied = true};
     };
     return {
+        {.name = "anisotropy",
+         .default_value = "",
+         .unit = "",
+         .help = "auto: a plane and a ratio from the samples where left-out boreholes are estimated better by them; "
+                 "none: distances count alike in all directions. Not given: auto, unless one of these is given",
+         .words = {"auto", "none"},
+         .implied = true},
         angle("azimuth", "of the first axis of anisotropy, clockwise from grid north"),
         angle("dip", "of the first axis, down from the horizontal"),
         angle("roll", "of the second axis, about the first; 0: horizontal"),
@@ -159,6 +166,15 @@ const std::vector<EstimatorMethod>& estimator_catalogue() {
                       .implied = true}} +
              neighbourhood("24") + shares("4", "8") + anisotropy("")},
         {"nearest", "the value of the nearest sample that no fault hides", anisotropy("1")},
+        {"auto",
+         "whichever of natural, natural:smooth, kriging and idw estimates left-out boreholes best; natural unless "
+         "another wins clearly",
+         Options{{.name = "anisotropy",
+                  .default_value = "auto",
+                  .unit = "",
+                  .help = "auto, or none: in no direction other distances than in another",
+                  .words = {"auto", "none"},
+                  .implied = true}}},
     };
     return all;
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/live_model.hpp"
-#include "interp/estimator_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <mutex>
 #include <utility>
 
+#include "interp/estimator_plan.hpp"
+#include "interp/plan/estimator_choice.hpp"
 #include "tess/error.hpp"
 #include "tess/site_edits.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 std::shared_ptr<ModelSnapshot> built(Site site, const BuildOptions& options, BuildReport& report,
                                      const Progress& progress) {
-    const EstimatorPlan plan = parse_estimator_plan(options.estimator);
+    const EstimatorPlan plan = with_open_chosen(parse_estimator_plan(options.estimator));
     const auto counters = std::make_shared<EstimatorCounters>();
     std::shared_ptr<const ModelEstimator> estimator;
     const auto factory = [&](const Model& model, const BarrierQuery& barriers) -> ValueSource {

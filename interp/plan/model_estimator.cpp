@@ -13,6 +13,7 @@
 #include "interp/estimator/query_order.hpp"
 #include "interp/estimator_plan.hpp"
 #include "interp/natural/linear_precision.hpp"
+#include "interp/plan/estimator_choice.hpp"
 #include "interp/plan/extrapolation.hpp"
 #include "interp/plan/fitted_estimator.hpp"
 #include "interp/plan/learned_errors.hpp"
@@ -31,6 +32,7 @@ struct Column {
     std::vector<double> scaled;
     ColumnTraits traits;
     std::optional<LearnedErrors> errors;
+    EstimatorSpec open{};  ///< as asked or chosen, before it was fitted
 };
 
 /// Properties measured at the same samples, barred by the same and estimated alike, and the estimator over those.
@@ -45,7 +47,7 @@ struct Group {
 };
 
 Column column_of(const Model& model, std::size_t p, const std::vector<std::uint32_t>& samples) {
-    Column column{p, {}, {}, {}, {}};
+    Column column{p, {}, {}, {}, {}, {}};
     for (const std::uint32_t s : samples) {
         column.measured.push_back(model.samples.values[p][s]);
         column.scaled.push_back(to_scale(model.properties[p], column.measured.back()));
@@ -73,18 +75,34 @@ std::vector<std::uint32_t> samples_with(const Model& model, std::size_t p) {
     return present;
 }
 
-/// Fits what the plan leaves open, and notes it there.
-EstimatorSpec fitted_for(const Model& model, const Column& column, std::span<const std::uint32_t> samples,
+/// Chooses and fits what the plan leaves open, and notes it there.
+EstimatorSpec fitted_for(const Model& model, Column& column, std::span<const std::uint32_t> samples,
                          const BarrierQuery& barriers, EstimatorPlan& plan) {
     const Property& property = model.properties[column.property];
-    const EstimatorSpec& spec = plan.of(property.name);
-    if (!needs_values(spec)) {
+    EstimatorSpec spec = plan.of(property.name);
+    column.open = spec;
+    const bool to_choose = is_to_be_chosen(spec);
+    if (!to_choose && !needs_values(spec)) {
         return spec;
     }
-    EstimatorSpec fitted = fitted_estimator(spec, picked(model.samples.positions, samples), column.scaled,
-                                            picked(model.samples.borehole, samples), property.kind, &barriers);
-    plan.of_property[property.name] = fitted;
-    return fitted;
+    const SampledValues data{beside_barriers(picked(model.samples.positions, samples), barriers), column.scaled,
+                             picked(model.samples.borehole, samples), property.kind};
+    if (to_choose) {
+        auto chosen = EstimatorChooser(data, &barriers).choose(spec);
+        spec = std::move(chosen.spec);
+        plan.choices[property.name] = chosen.choice;
+        column.open = spec;
+    }
+    spec = fitted_estimator(spec, data.sites, data.values, data.boreholes, property.kind, &barriers);
+    plan.of_property[property.name] = spec;
+    return spec;
+}
+
+/// A plan in which all is chosen: what a property to come is estimated by, too.
+void close(EstimatorPlan& plan) {
+    plan.general = without_choice(std::move(plan.general));
+    std::erase_if(plan.of_property,
+                  [&](const auto& entry) { return entry.second.to_string() == plan.general.to_string(); });
 }
 
 std::shared_ptr<const Slopes> slopes_of(const Group& group) {
@@ -152,8 +170,7 @@ void learn_group(Group& group, const Model& model, const EstimatorPlan& asked, s
     }
     if (group.columns.size() == 1 && task.columns.front().continuous && task.columns.front().known == nullptr) {
         const Column& column = group.columns.front();
-        task.open = open_again(group.spec, asked.of(model.properties[column.property].name), group.sites, column.scaled,
-                               boreholes, Kind::continuous);
+        task.open = open_again(group.spec, column.open, group.sites, column.scaled, boreholes, Kind::continuous);
     }
     auto learned = learn_errors(task);
     for (std::size_t c = 0; c < learned.size(); ++c) {
@@ -357,6 +374,7 @@ ModelEstimator::ModelEstimator(const Model& model, const BarrierQuery& barriers,
                                std::shared_ptr<EstimatorCounters> counters, const ModelEstimatorOptions& options)
     : impl_(new Impl{model, barriers, plan, {}, std::move(counters)}) {
     impl_->groups = groups_of(model, barriers, impl_->plan);
+    close(impl_->plan);
     if (impl_->groups.size() == 1) {
         impl_->plan.general = impl_->groups.front().spec;  // one for all, fitted to some of its own or not
         impl_->plan.of_property.clear();

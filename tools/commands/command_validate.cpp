@@ -45,17 +45,20 @@ class Validate final : public Command {
   public:
     Syntax syntax() override {
         Syntax syntax{"validate", site_options(site_), {"MODEL.gpkg", 0, 1, &models_}};
-        append(syntax, {{"Validation",
-                         {
-                             {{"estimator"},
-                              "SPEC",
-                              "one to try, repeatable; by default natural, idw, kriging, nearest",
-                              &estimators_},
-                             {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
-                             horizon_option(horizon_),
-                             accept_edited_option(accept_edited_),
-                             {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
-                         }}});
+        append(
+            syntax,
+            {{"Validation",
+              {
+                  {{"estimator"},
+                   "SPEC",
+                   "one to try, repeatable; by default natural, idw, kriging, nearest",
+                   &estimators_},
+                  {{"suggest"}, "", "what --estimator auto would choose, with the table of what was tried", &suggest_},
+                  {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
+                  horizon_option(horizon_),
+                  accept_edited_option(accept_edited_),
+                  {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
+              }}});
         append(syntax, run_options(run_));
         return syntax;
     }
@@ -64,7 +67,7 @@ class Validate final : public Command {
         std::vector<EstimatorSpec> specs;
         for (const auto& text :
              estimators_.empty() ? std::vector<std::string>{"natural", "idw", "kriging", "nearest"} : estimators_) {
-            specs.push_back(parse_estimator(text));
+            specs.push_back(with_open_chosen(parse_estimator(text)));
         }
         std::vector<std::string> inputs = input_paths(site_);
         inputs.insert(inputs.end(), models_.begin(), models_.end());
@@ -85,7 +88,7 @@ class Validate final : public Command {
             const BarrierQuery faults = model_proximity(model);
             CrossValidationOptions options;
             options.max_folds = folds_;
-            all = validate_all(model, faults, specs, options, display.callback());
+            all = validate_all(model, faults, specs, options, suggest_, display.callback());
         }
         if (all.empty()) {
             throw InputError("no property has a sample: there is nothing to validate");
@@ -144,6 +147,7 @@ class Validate final : public Command {
     std::string plot_;
     std::string horizon_;
     bool accept_edited_ = false;
+    bool suggest_ = false;
     std::uint64_t folds_ = 0;
 };
 
@@ -156,8 +160,9 @@ CommandEntry validate_command() {
         "[inputs | MODEL.gpkg] [--estimator SPEC …]",
         "Leaves each borehole out, estimates it from the others, and compares with what was measured: errors, bias, "
         "rank correlation, and how often the truth lies within the stated uncertainty. Shows each property's "
-        "variogram, along and across the holes.",
-        {"terratet validate site.gpkg --plot site.svg",
+        "variogram, along and across the holes. An anisotropy that is not given is chosen as build does, from all "
+        "holes; --suggest shows how.",
+        {"terratet validate site.gpkg --plot site.svg", "terratet validate site.gpkg --suggest",
          "terratet validate --boreholes collar.csv --survey survey.csv --log assay.csv \\",
          "  --property CU --estimator natural --estimator kriging:model=exponential"},
         [] { return std::make_unique<Validate>(); }};

@@ -175,6 +175,20 @@ Json uncertainty_json(const Model& model) {
     return uncertainty;
 }
 
+/// By property, of those whose estimator was chosen.
+Json choices_json(const Model& model) {
+    Json choices = Json::object();
+    const EstimatorPlan plan = parse_estimator_plan(model.estimator);
+    for (const auto& [property, choice] : plan.choices) {
+        choices[property] = {{"estimator", plan.of(property).as_given()},
+                             {"rms", choice.rms},
+                             {"rms_plain", choice.rms_plain},
+                             {"better_folds", choice.better_folds},
+                             {"folds", choice.folds}};
+    }
+    return choices;
+}
+
 Json fidelity_json(const RunRecord& record) {
     Json fidelity = Json::object();
     const auto& all = record.build->report.fidelity;
@@ -277,6 +291,7 @@ std::string report_text(const RunRecord& record) {
                                {"options", options},
                                {"fitted", record.model->model().estimator},
                                {"fallbacks", build.report.fallbacks},
+                               {"chosen", choices_json(record.model->model())},
                                {"uncertainty", uncertainty_json(record.model->model())}};
     }
     report["outputs"] = Json::array();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include "interp/estimator_plan.hpp"
 #include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
 #include "tools/options/text.hpp"
@@ -97,6 +98,35 @@ std::string fidelity_text(const Property& property, const Fidelity& fit) {
     return text;
 }
 
+/// "natural, ranges 1 : 1 : 0.1, the third across a plane that dips 30° to 115°".
+std::string anisotropy_text(const EstimatorSpec& spec) {
+    const Anisotropy a = anisotropy_of(spec);
+    if (a.isotropic()) {
+        return spec.name + ", distances alike in all directions";
+    }
+    const double azimuth = a.azimuth_deg < 0 ? a.azimuth_deg + 360 : a.azimuth_deg;
+    const std::string plane =
+        a.roll_deg != 0  ? fmt::format("azimuth {:.3g}°, dip {:.3g}°, roll {:.3g}°", azimuth, a.dip_deg, a.roll_deg)
+        : a.dip_deg == 0 ? "the level plane"
+                         : fmt::format("a plane that dips {:.3g}° to {:.3g}°", a.dip_deg, azimuth);
+    return spec.name + (spec.options.contains("smooth") ? ":smooth" : "") +
+           (a.ratio2 == 1 ? fmt::format(", across {} at {:.2g} of the range along it", plane, a.ratio3)
+                          : fmt::format(", ranges 1 : {:.2g} : {:.2g}, {}", a.ratio2, a.ratio3, plane));
+}
+
+/// How it was chosen.
+std::string choice_text(const EstimatorSpec& spec, const EstimatorChoice& choice) {
+    const std::string what = anisotropy_text(spec);
+    if (choice.folds == 0) {
+        return what + " (too few samples or boreholes to choose)";
+    }
+    if (choice.better_folds == 0) {
+        return what + fmt::format(": nothing tried is 3 % better at left-out boreholes (rms {:.3g})", choice.rms);
+    }
+    return what + fmt::format(": rms {:.3g} at left-out boreholes instead of {:.3g}, better in {} of {} groups",
+                              choice.rms, choice.rms_plain, choice.better_folds, choice.folds);
+}
+
 std::string build_lines(const BuildRecord& build, const Model& model) {
     const BuildReport& report = build.report;
     const char* unit = model.frame.unit == "metre" ? "m" : model.frame.unit.c_str();
@@ -138,6 +168,10 @@ std::string build_lines(const BuildRecord& build, const Model& model) {
                                   counted(report.fault_crossing_edges, "edge")));
     for (const EmptyBlock& block : report.empty_blocks) {
         out += line("Note", empty_block_text(block, unit));
+    }
+    const EstimatorPlan plan = parse_estimator_plan(model.estimator);
+    for (const auto& [property, choice] : plan.choices) {
+        out += line("Estimator", property + ": " + choice_text(plan.of(property), choice));
     }
     for (std::size_t p = 0; p < report.fidelity.size(); ++p) {
         const auto& property = model.properties[p];

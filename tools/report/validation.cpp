@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "interp/estimator/beside_barriers.hpp"
 #include "interp/estimator_spec.hpp"
 #include "interp/kriging/fitted_variogram.hpp"
 #include "tools/options/text.hpp"
@@ -141,11 +142,61 @@ Chart variogram_chart(const Property& property, const std::string& where, const 
     return chart;
 }
 
+/// What an anisotropy or method left open became; empty where it was given.
+std::string chosen_text(const CrossValidation& v) {
+    EstimatorSpec chosen = v.estimator;
+    for (const char* fitted : {"nugget", "sill", "range", "drift"}) {
+        if (!v.asked.options.contains(fitted)) {
+            chosen.options.erase(fitted);
+        }
+    }
+    if (chosen.name == "kriging" && !chosen.options.contains("azimuth") && !chosen.options.contains("dip")) {
+        return "";  // its vertical ratio was fitted
+    }
+    return chosen.as_given() == v.asked.as_given() ? "" : chosen.as_given();
+}
+
+std::string suggestion_text(const ChosenEstimator& suggestion, const Property& property) {
+    if (suggestion.trials.empty()) {
+        return "";
+    }
+    const bool classes = property.kind == Kind::categorical;
+    std::string out = fmt::format("  {:<60}{:>9}{:>8}{:>9}\n", "tried in the same few folds",
+                                  classes ? "wrong %" : "RMSE", "folds", "by idw");
+    for (const auto& trial : suggestion.trials) {
+        const auto shown = [&](double rms) { return classes ? percent(rms * rms) : cell(rms); };
+        out += fmt::format("  {:<60}{:>9}{:>8}{:>9}\n", trial.spec.as_given(), shown(*trial.rms),
+                           &trial == &suggestion.trials.front()
+                               ? "-"
+                               : fmt::format("{} of {}", trial.better_folds, suggestion.choice.folds),
+                           shown(trial.quick));
+    }
+    return out +
+           "  folds: in how many of them the errors are smaller than the first one's; by idw: of inverse distance "
+           "with that\n  anisotropy. Suggested (--estimator): " +
+           suggestion.spec.as_given() + "\n";
+}
+
+Json suggestion_json(const ChosenEstimator& suggestion) {
+    if (suggestion.trials.empty()) {
+        return {};
+    }
+    Json trials = Json::array();
+    for (const auto& trial : suggestion.trials) {
+        trials.push_back({{"estimator", trial.spec.as_given()},
+                          {"rms", *trial.rms},
+                          {"better_folds", trial.better_folds},
+                          {"rms_by_idw", trial.quick}});
+    }
+    return {{"estimator", suggestion.spec.as_given()}, {"folds", suggestion.choice.folds}, {"tried", trials}};
+}
+
 }  // namespace
 
 std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQuery& faults,
                                              const std::vector<EstimatorSpec>& specs,
-                                             const CrossValidationOptions& options, const Progress& progress) {
+                                             const CrossValidationOptions& options, bool suggest,
+                                             const Progress& progress) {
     std::vector<PropertyValidation> all;
     for (std::size_t p = 0; p < model.properties.size(); ++p) {
         const Property& property = model.properties[p];
@@ -165,14 +216,24 @@ std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQu
         }
         PropertyValidation one;
         one.property = p;
+        const BarrierQuery& seen = faults.seen_by(p);
+        EstimatorChooser chooser({beside_barriers(places, faults), values, boreholes, property.kind}, &seen);
+        if (suggest) {
+            one.suggestion = chooser.choose(parse_estimator("auto"));
+        }
+        std::vector<EstimatorSpec> resolved;
         for (std::size_t e = 0; e < specs.size(); ++e) {
             const double done = static_cast<double>(p * specs.size() + e);
             report_progress(progress, "validate", done / static_cast<double>(model.properties.size() * specs.size()));
-            one.estimators.push_back(cross_validate(model, faults, p, specs[e], options));
+            resolved.push_back(is_to_be_chosen(specs[e]) ? chooser.choose(specs[e]).spec : specs[e]);
+            one.estimators.push_back(cross_validate(model, faults, p, resolved.back(), options));
+            one.estimators.back().asked = without_choice(specs[e]);
+            one.estimators.back().asked.name = specs[e].name;
         }
         EstimatorSpec shown;
-        if (const auto kriging = std::ranges::find(specs, "kriging", &EstimatorSpec::name); kriging != specs.end()) {
-            const auto& fitted = one.estimators[static_cast<std::size_t>(kriging - specs.begin())].estimator.options;
+        if (const auto kriging = std::ranges::find(resolved, "kriging", &EstimatorSpec::name);
+            kriging != resolved.end()) {
+            const auto& fitted = one.estimators[static_cast<std::size_t>(kriging - resolved.begin())].estimator.options;
             shown = *kriging;
             if (const auto drift = fitted.find("drift"); drift != fitted.end()) {
                 shown.options["drift"] = one.drift = drift->second;
@@ -201,6 +262,9 @@ std::string validation_text(const Model& model, const std::vector<PropertyValida
                            : fmt::format("  {:<34}{:>9}{:>9}{:>10}{:>7}{:>9}{:>9}{:>9}\n", name, cell(s.rmse),
                                          cell(s.mae), cell(s.bias, 3), cell(s.rank_correlation, 3),
                                          percent(s.within_one), percent(s.within_half_width), s.without_value);
+            if (const std::string as = chosen_text(v); !as.empty()) {
+                out += "    as " + as + "\n";
+            }
         }
         if (!classes) {
             out +=
@@ -208,6 +272,7 @@ std::string validation_text(const Model& model, const std::vector<PropertyValida
                 "95 %: within\n  the stated half-width, NAME_ci95 (95 is right). Both are stated without having seen "
                 "the borehole.\n";
         }
+        out += suggestion_text(one.suggestion, property);
         if (!one.variogram.all.empty()) {
             out += std::string("  Variogram") + (one.drift == "linear" ? " about a plane, " : ", ") +
                    variogram_line(one.variogram.variogram, one.variogram.apart) + "\n" + lag_table(one.variogram);
@@ -245,6 +310,7 @@ Json validation_json(const Model& model, const std::vector<PropertyValidation>& 
                               {"unit", scale_unit(property)},
                               {"samples", one.estimators.front().sample.size()},
                               {"estimators", estimators},
+                              {"suggestion", suggestion_json(one.suggestion)},
                               {"variogram", variogram_json(one.variogram)}});
     }
     return properties;

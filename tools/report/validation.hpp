@@ -12,6 +12,7 @@
 #include "interp/estimator_spec.hpp"
 #include "interp/kriging/variogram_fit.hpp"
 #include "interp/plan/cross_validation.hpp"
+#include "interp/plan/estimator_choice.hpp"
 #include "io/write/write_svg.hpp"
 #include "tess/progress.hpp"
 
@@ -23,12 +24,15 @@ struct PropertyValidation {
     VariogramFit variogram;
     std::string drift{};  ///< that it is fitted about: linear, constant; empty: no kriging was asked for
     std::vector<CrossValidation> estimators;  ///< in the order they were asked for
+    ChosenEstimator suggestion{};             ///< empty trials: none was asked for, or too few samples to tell
 };
 
-/// Of all properties with samples. \pre specs are valid
+/// Of all properties with samples. What specifications leave to be chosen is chosen once, from all samples, as a model's
+/// is. \pre specs are valid
 std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQuery& faults,
                                              const std::vector<EstimatorSpec>& specs,
-                                             const CrossValidationOptions& options, const Progress& progress);
+                                             const CrossValidationOptions& options, bool suggest,
+                                             const Progress& progress);
 
 std::string validation_text(const Model& model, const std::vector<PropertyValidation>& all);
 nlohmann::ordered_json validation_json(const Model& model, const std::vector<PropertyValidation>& all);

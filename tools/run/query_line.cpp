@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interp/estimator_spec.hpp"
+#include "interp/plan/estimator_choice.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
 #include "tess/base/tri_mesh.hpp"
 #include "tess/error.hpp"
@@ -120,7 +121,7 @@ void query_line(const ModelSnapshot& opened, const QueryArguments& a, RowSink& s
     const Line line(model, points.positions, step_asked(a, model));
     std::optional<ModelEstimator> other;
     if (!a.estimator.empty()) {
-        other.emplace(model, opened.barriers(), parse_estimator(a.estimator), nullptr,
+        other.emplace(model, opened.barriers(), with_open_chosen(parse_estimator(a.estimator)), nullptr,
                       ModelEstimatorOptions{.uncertainty = !a.no_deviation});
     }
     const ModelEstimator& estimator = other            ? *other

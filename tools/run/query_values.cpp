@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interp/estimator_spec.hpp"
+#include "interp/plan/estimator_choice.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
@@ -40,7 +41,7 @@ class ValueQueries {
     void run() {
         std::optional<ModelEstimator> other;
         if (!arguments_.estimator.empty()) {
-            other.emplace(model_, opened_.barriers(), parse_estimator(arguments_.estimator), nullptr,
+            other.emplace(model_, opened_.barriers(), with_open_chosen(parse_estimator(arguments_.estimator)), nullptr,
                           ModelEstimatorOptions{.uncertainty = !arguments_.no_deviation});
         }
         const ModelEstimator& estimator = other                     ? *other

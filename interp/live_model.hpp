@@ -23,7 +23,7 @@ class LiveModel {
     explicit LiveModel(Model model);
 
     /// Builds (tess/build.hpp says how, and what it throws). options.estimator names the estimator, empty: natural
-    /// neighbour; its anisotropy, where left open, is chosen for each property (plan/estimator_choice.hpp), and the model
+    /// neighbour; its anisotropy, where left open, is chosen for each property (plan/estimator_choice.hpp). The model
     /// keeps it as it was chosen and fitted.
     explicit LiveModel(Site site, const BuildOptions& options = {}, const Progress& progress = {});
     LiveModel(Site site, const BuildOptions& options, BuildReport& report, const Progress& progress = {});

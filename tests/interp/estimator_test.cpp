@@ -63,11 +63,11 @@ TEST_CASE("Estimator specifications are written out with every default") {
 
 TEST_CASE("Wrong estimator specifications are refused with what there is") {
     CHECK(message_of("kringing") ==
-          "estimator 'kringing' is not known; there are natural, laplace, linear, idw, kriging, nearest");
-    CHECK(message_of("").find("there are natural, laplace, linear, idw, kriging, nearest") != std::string::npos);
+          "estimator 'kringing' is not known; there are natural, laplace, linear, idw, kriging, nearest, auto");
+    CHECK(message_of("").find("there are natural, laplace, linear, idw, kriging, nearest, auto") != std::string::npos);
     CHECK(message_of("idw:pwr=2") ==
           "estimator 'idw' has no option 'pwr'; it has power, radius, max_points, "
-          "per_octant, per_borehole, azimuth, dip, roll, ratio2, ratio3");
+          "per_octant, per_borehole, anisotropy, azimuth, dip, roll, ratio2, ratio3");
     CHECK(message_of("natural:power=2") ==
           "estimator 'natural' has no option 'power'; it has smooth, azimuth, dip, roll, ratio2, ratio3");
     CHECK(message_of("idw:power=two") == "estimator 'idw': power='two' is not a number from 0 to 100");

@@ -48,6 +48,51 @@ class Validate(Case):
         with_fault = self.succeed("validate", *SITE, *FAST, "--faults", TWIN / "fracture.ts").stdout
         self.assertNotEqual(of_model, with_fault)
 
+    def seam(self):
+        """10 in a layer of two metres that dips to the east, cut by 16 holes 60 m apart."""
+        with (self.folder / "collar.csv").open("w") as collars, (self.folder / "log.csv").open("w") as log:
+            collars.write("hole,x,y,z,length\n")
+            log.write("hole,from,to,au\n")
+            for k in range(16):
+                x, y = 60 * (k // 4) + 3 * (k % 3), 60 * (k % 4) + 2 * (k % 5)
+                collars.write(f"H{k},{500000 + x},{6700000 + y},0,80\n")
+                for d in range(80):
+                    log.write(f"H{k},{d},{d + 1},{10 if 40 <= d + .5 - .05 * x < 42 else .1 + .001 * (7 * d % 40)}\n")
+        return ["--boreholes", "collar.csv", "--log", "log.csv", "--property", "au", "-s_srs", "EPSG:3067"]
+
+    def test_an_anisotropy_is_chosen_told_and_kept_and_none_switches_it_off(self):
+        site = self.seam()
+        built = self.succeed("build", *site, "--lmin", "30", "-o", "m.gpkg", "--report", "r.json")
+        said = " ".join(built.stdout.split() + built.stderr.split())
+        self.assertRegex(said, r"Estimator au: natural, across a plane that dips (2.[5-9]|3)[.\d]*° to \d+[.\d]*° at 0.02 of")
+        chosen = json.loads((self.folder / "r.json").read_text())["estimator"]["chosen"]["au"]
+        self.assertLess(chosen["rms"], 0.9 * chosen["rms_plain"])
+        self.assertEqual((chosen["better_folds"], chosen["folds"]), (5, 5))
+        self.assertIn("ratio3=0.02", chosen["estimator"])
+        places = ["x,y,z"] + [f"{500000 + x},{6700000 + y},{-41 - .05 * x}" for x in range(10, 180, 9) for y in range(10, 180, 9)]
+        (self.folder / "places.csv").write_text("\n".join(places) + "\n")
+
+        def mean(*options):
+            rows = self.succeed("query", "m.gpkg", "value", "places.csv", "-q", "--no-sd", *options).stdout.splitlines()[1:]
+            return sum(float(row.split(",")[3]) for row in rows) / len(rows)
+        own = mean()
+        self.assertGreater(own, 9)
+        self.assertEqual(mean("--estimator", "natural"), own)
+        self.assertLess(mean("--estimator", "natural:anisotropy=none"), 4)
+
+    def test_suggest_shows_what_was_tried_and_what_auto_takes(self):
+        site = self.seam()
+        result = self.succeed("validate", *site, "--estimator", "natural", "--suggest", "--report", "v.json")
+        [au] = json.loads((self.folder / "v.json").read_text())["properties"]
+        tried = {t["estimator"]: t for t in au["suggestion"]["tried"]}
+        for method in ("natural", "natural:smooth", "kriging", "idw"):
+            self.assertIn(method, tried)
+            self.assertIn(f"  {method} ", result.stdout)
+        taken = au["suggestion"]["estimator"]
+        self.assertEqual(tried[taken]["rms"], min(t["rms"] for t in tried.values()))
+        self.assertIn(f"Suggested (--estimator): {taken}", result.stdout)
+        self.assertIn("    as natural:", result.stdout)
+
     def test_a_hard_horizon_parts_what_is_left_out_from_beyond_it(self):
         """1 above a contact and 10 below: without the other side every hole is found again exactly."""
         holes = [(x, y) for x in range(0, 500, 100) for y in range(0, 500, 100)]
@@ -61,7 +106,7 @@ class Validate(Case):
                 "--property", "K", "--property", "rock:categorical"]
 
         def scores(*arguments):
-            estimators = ["--estimator", "natural", "--estimator", "idw"]
+            estimators = ["--estimator", "natural:anisotropy=none", "--estimator", "idw:anisotropy=none"]
             report = json.loads(self.succeed("validate", *arguments, *estimators, "--report", "-").stdout)
             self.assertEqual(report["input"]["faults"], 0)
             k, rock = (p["estimators"] for p in report["properties"])

@@ -121,7 +121,7 @@ std::string choice_text(const EstimatorSpec& spec, const EstimatorChoice& choice
         return what + " (too few samples or boreholes to choose)";
     }
     if (choice.better_folds == 0) {
-        return what + fmt::format(": nothing tried is 3 % better at left-out boreholes (rms {:.3g})", choice.rms);
+        return what + fmt::format(": nothing tried is clearly better at left-out boreholes (rms {:.3g})", choice.rms);
     }
     return what + fmt::format(": rms {:.3g} at left-out boreholes instead of {:.3g}, better in {} of {} groups",
                               choice.rms, choice.rms_plain, choice.better_folds, choice.folds);

@@ -27,8 +27,8 @@ struct PropertyValidation {
     ChosenEstimator suggestion{};             ///< empty trials: none was asked for, or too few samples to tell
 };
 
-/// Of all properties with samples. What specifications leave to be chosen is chosen once, from all samples, as a model's
-/// is. \pre specs are valid
+/// Of all properties with samples. What specifications leave to be chosen is chosen once, from all samples, as for a
+/// model. \pre specs are valid
 std::vector<PropertyValidation> validate_all(const Model& model, const BarrierQuery& faults,
                                              const std::vector<EstimatorSpec>& specs,
                                              const CrossValidationOptions& options, bool suggest,

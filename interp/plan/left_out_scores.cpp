@@ -155,24 +155,41 @@ void LeftOutScores::note(std::uint32_t site, double estimate, LeftOutScore& scor
     score.counts[borehole_of_[site]] += 1;
 }
 
-LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_t targets) const {
+std::vector<std::uint32_t> LeftOutScores::some(std::size_t targets) const {
+    const SomeSites chosen(data_.sites.size(), targets);
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t i = 0; i < data_.sites.size(); ++i) {
+        if (chosen.contains(i)) {
+            out.push_back(i);
+        }
+    }
+    return out;
+}
+
+LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_t targets) {
     const Metric metric(anisotropy);
     std::vector<Vec3> places(data_.sites.size());
     std::transform(data_.sites.begin(), data_.sites.end(), places.begin(), metric);
     const SiteTree tree(places, data_.boreholes);
-    const SomeSites some(places.size(), targets);
-    std::vector<std::uint32_t> asked;
-    for (std::uint32_t i = 0; i < places.size(); ++i) {
-        if (some.contains(i)) {
-            asked.push_back(i);
-        }
+    const auto asked = some(std::min(targets, targets_));  // fewer of them are a part of all
+    const auto all = some(targets_);
+    if (barriers_ != nullptr && sight_.empty()) {
+        sight_.assign(all.size() * places.size(), unknown);
     }
     std::vector<double> estimates(asked.size(), usual_);
     tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t k) {
         const std::uint32_t i = asked[k];
+        const auto row = static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), i) - all.begin());
+        const auto in_sight = [&](std::uint32_t j) {
+            Sight& known = sight_[row * places.size() + j];
+            if (known == unknown) {
+                known = barriers_->crosses_any(data_.sites[i], data_.sites[j]) ? hidden : open;
+            }
+            return known == open;
+        };
         const auto usable = [&](std::uint32_t j) {
             return borehole_of_[j] % folds_.size() != borehole_of_[i] % folds_.size() &&
-                   (barriers_ == nullptr || !barriers_->crosses_any(data_.sites[i], data_.sites[j]));
+                   (barriers_ == nullptr || in_sight(j));
         };
         thread_local std::vector<NearSite> near;
         tree.neighbourhood(places[i], near_by, usable, near);

@@ -51,7 +51,8 @@ class LeftOutScores {
     [[nodiscard]] std::size_t folds() const { return folds_.size(); }
 
     /// A quick one: inverse distance over 12 samples, at most 3 of a borehole, at some of the targets. One tree.
-    [[nodiscard]] LeftOutScore by_distance(const Anisotropy& anisotropy, std::size_t targets) const;
+    /// What is in sight of each target is kept from call to call, a byte a target and sample.
+    [[nodiscard]] LeftOutScore by_distance(const Anisotropy& anisotropy, std::size_t targets);
 
     /// The estimator itself, with what it leaves open fitted in each fold anew. An estimator a fold.
     /// \pre the drift of kriging is given
@@ -59,6 +60,7 @@ class LeftOutScores {
 
   private:
     [[nodiscard]] LeftOutScore none() const;
+    [[nodiscard]] std::vector<std::uint32_t> some(std::size_t targets) const;
     void note(std::uint32_t site, double estimate, LeftOutScore& score) const;
 
     SampledValues data_;
@@ -67,7 +69,9 @@ class LeftOutScores {
     std::vector<std::uint32_t> borehole_of_;  ///< of each site, as scores number them
     std::size_t targets_;
     std::size_t count_ = 0;  ///< boreholes
-    double usual_;           ///< in place of an estimate where there is none
+    enum Sight : std::uint8_t { unknown, open, hidden };
+    std::vector<Sight> sight_;  ///< of each target, of each site; empty without barriers
+    double usual_;              ///< in place of an estimate where there is none
 };
 
 }  // namespace terratet

@@ -69,7 +69,7 @@ TEST_CASE("Wrong estimator specifications are refused with what there is") {
           "estimator 'idw' has no option 'pwr'; it has power, radius, max_points, "
           "per_octant, per_borehole, anisotropy, azimuth, dip, roll, ratio2, ratio3");
     CHECK(message_of("natural:power=2") ==
-          "estimator 'natural' has no option 'power'; it has smooth, azimuth, dip, roll, ratio2, ratio3");
+          "estimator 'natural' has no option 'power'; it has smooth, anisotropy, azimuth, dip, roll, ratio2, ratio3");
     CHECK(message_of("idw:power=two") == "estimator 'idw': power='two' is not a number from 0 to 100");
     CHECK(message_of("idw:radius=-1") == "estimator 'idw': radius='-1' is not a number above 0");
     CHECK(message_of("idw:power=1:power=2") == "estimator 'idw': power is given twice");

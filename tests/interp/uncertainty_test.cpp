@@ -11,6 +11,7 @@
 #include "estimation.hpp"
 #include "interp/estimator/estimator.hpp"
 #include "interp/estimator_plan.hpp"
+#include "interp/plan/folds.hpp"
 #include "interp/plan/local_error.hpp"
 #include "random_field.hpp"
 #include "sites.hpp"
@@ -185,6 +186,23 @@ TEST_CASE("Factors found are kept with the estimator and taken up again; other e
         CHECK(same_bits(first.deviation, anew.deviation));
     }
     CHECK_FALSE(ModelEstimator(model, no_faults(), parse_estimator("idw")).plan().calibrations.contains("v"));
+}
+
+TEST_CASE("Of many samples some five thousand are judged, as many of each borehole") {
+    const Model model = wells(240, stationary(201), 201);  // 25 samples each
+    const ModelEstimator found(model, no_faults(), parse_estimator("idw"), {}, {.uncertainty = true});
+    const Calibration& calibration = found.plan().calibrations.at("v");
+    CHECK(calibration.boreholes == 240);
+    CHECK(calibration.samples == Approx(5000).epsilon(0.01));
+    for (const std::size_t wanted : {4000, 500, 75}) {
+        const SomeSites some(40'000, wanted);
+        std::vector<std::size_t> of_hole(500, 0);
+        for (std::uint32_t i = 0; i < 40'000; ++i) {
+            of_hole[i / 80] += some.contains(i) ? 1 : 0;
+        }
+        const auto [least, most] = std::minmax_element(of_hole.begin(), of_hole.end());
+        CHECK(*most - *least <= 2);
+    }
 }
 
 TEST_CASE("Rates of all folds but one have not seen that fold's errors; those of all have") {

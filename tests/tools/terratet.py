@@ -18,7 +18,7 @@ def twin_inputs(folder=TWIN, faults="fracture.ts"):
     """The main job's inputs; at 60 m it takes a second."""
     return ["--boreholes", folder / "collar.csv", "--survey", folder / "survey.csv", "--log", folder / "log.csv",
             "--faults", folder / faults, "--property", "K:log10:unit=m/s", "-s_srs", "EPSG:3067",
-            "-te", *EXTENT.split(","), "--lmin", "60m", "--estimator", "idw"]
+            "-te", *EXTENT.split(","), "--lmin", "60m", "--estimator", "idw:anisotropy=none"]
 
 
 class Case(unittest.TestCase):

@@ -106,19 +106,18 @@ void place_las(const LasHeader& header, const std::string& path, const std::stri
         }
     }
     result.collars = collar_table(file);
-    const std::vector<std::pair<const char*, std::initializer_list<const char*>>> facts{
-        {"well", {"WELL", "WN", "WELLNAME"}},
-        {"uwi", {"UWI"}},
-        {"api", {"API", "APIN"}},
-        {"company", {"COMP"}},
-        {"field", {"FLD"}},
-        {"country", {"CTRY"}},
-        {"date", {"DATE"}}};
-    for (const auto& [fact, keys] : facts) {
+    const auto tell = [&](const char* fact, std::initializer_list<const char*> keys) {
         if (const LasItem* const item = header.find(keys)) {
             result.facts.emplace_back(fact, item->value);
         }
-    }
+    };
+    tell("well", {"WELL", "WN", "WELLNAME"});
+    tell("uwi", {"UWI"});
+    tell("api", {"API", "APIN"});
+    tell("company", {"COMP"});
+    tell("field", {"FLD"});
+    tell("country", {"CTRY"});
+    tell("date", {"DATE"});
     const LasItem* const x =
         header.find({"X", "XCOORD", "XWELL", "XCRD", "EASTING", "EAST", "UTMX", "UTME", "XUTM", "SURFX", "XLOC"});
     const LasItem* const y =

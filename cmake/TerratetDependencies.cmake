@@ -17,6 +17,8 @@ find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET GLOBAL netcdf hdf5)
+pkg_check_modules(LIBDEFLATE REQUIRED IMPORTED_TARGET GLOBAL libdeflate)
 
 # OpenVDB ships a find module, beside its library.
 find_path(TERRATET_OPENVDB_MODULE FindOpenVDB.cmake

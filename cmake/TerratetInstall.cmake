@@ -36,5 +36,5 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 # What terratetConfig.cmake looks for: static libraries hand their private dependencies on.
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
        libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libmeshoptimizer-dev libcairo2-dev zlib1g-dev
-       libssl-dev nlohmann-json3-dev libspdlog-dev libfmt-dev libeigen3-dev pkg-config)
+       libssl-dev libnetcdf-dev libdeflate-dev nlohmann-json3-dev libspdlog-dev libfmt-dev libeigen3-dev pkg-config)
 include(CPack)

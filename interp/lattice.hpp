@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "tess/frame.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
@@ -22,6 +23,15 @@ struct Lattice {
     }
     [[nodiscard]] std::int64_t count() const { return size[0] * size[1] * size[2]; }
 };
+
+/// No lattice has more voxels along an axis, nor more in all than most_voxels.
+inline constexpr std::int64_t most_voxels_along = 1'000'000'000;
+inline constexpr std::int64_t most_voxels = 1'000'000'000'000;
+
+/// Voxels of the given size, in map coordinates, that together cover the box (frame-local): their edges are multiples
+/// of the size in map coordinates. Throws UsageError as lattice_over does.
+Lattice aligned_lattice(const Box3& box, const Frame& frame, const Vec3& voxel_size,
+                        std::int64_t max_voxels = most_voxels);
 
 /// Voxels of the given size that together cover the box, centred on it. Throws UsageError when a size is not positive
 /// or the lattice would have more than `max_voxels`, naming a size that fits.

@@ -10,18 +10,19 @@
 BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
   libgdal-dev libproj-dev libsqlite3-dev libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libmeshoptimizer-dev libcairo2-dev zlib1g-dev
+  libdeflate-dev libnetcdf-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libeigen3-dev libcpp-httplib-dev
 )
 # What the tests need besides: independent readers of our outputs among others.
 TEST_PACKAGES=(
   clang-14 libclang-rt-14-dev
-  catch2 python3 python3-vtk9 python3-openvdb python3-gdal libopenvdb-tools gdal-bin chromium fonts-dejavu-core
+  catch2 python3 python3-vtk9 python3-openvdb python3-gdal python3-netcdf4 netcdf-bin libopenvdb-tools gdal-bin chromium fonts-dejavu-core
 )
 # Node may come from elsewhere than Debian, where its package would be in the way.
 command -v npm >/dev/null || TEST_PACKAGES+=(nodejs npm)
 # The heavy peers that `tests/run.sh --peers` compares with.
 PEER_PACKAGES=(gmsh libgmsh-dev r-base-core r-cran-gstat python3-scipy postgresql-15-postgis-3 libtet1.5-dev libbenchmark-dev
-               debootstrap dpkg-dev)
+               debootstrap dpkg-dev python3-qgis)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then

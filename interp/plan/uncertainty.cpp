@@ -40,6 +40,17 @@ bool has_samples(const Model& model, std::size_t p) {
     return !std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
 }
 
+std::vector<Derived> all_derived(const Model& model, std::vector<PropertyEstimates>& estimates) {
+    std::vector<Derived> derived;
+    for (std::size_t p = 0; p < estimates.size(); ++p) {
+        if (has_samples(model, p)) {
+            auto of_property = derived_from(model.properties[p], estimates[p]);
+            std::move(of_property.begin(), of_property.end(), std::back_inserter(derived));
+        }
+    }
+    return derived;
+}
+
 /// Where to put a derived property: in the place of its predecessor, or at the end.
 std::size_t place_for(const Property& property, Model& model) {
     for (std::size_t p = 0; p < model.properties.size(); ++p) {
@@ -64,18 +75,49 @@ void add_uncertainty(Model& model, const ModelEstimator& estimator) {
         queries.push_back({vertex.position, vertex.role == Role::seed ? vertex.owner : -1, vertex.side});
     }
     auto estimates = estimator.estimates(queries);
-    std::vector<Derived> derived;
-    for (std::size_t p = 0; p < estimates.size(); ++p) {
-        if (has_samples(model, p)) {
-            auto of_property = derived_from(model.properties[p], estimates[p]);
-            std::move(of_property.begin(), of_property.end(), std::back_inserter(derived));
-        }
-    }
-    for (auto& [property, values] : derived) {
+    for (auto& [property, values] : all_derived(model, estimates)) {
         const std::size_t p = place_for(property, model);
         model.properties[p] = std::move(property);
         model.vertex_values.values[p] = std::move(values);
     }
+}
+
+bool has_derived_properties(const Model& model) {
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (!has_samples(model, p)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+ValueBatch estimated_properties(const Model& model, const ModelEstimator& estimator,
+                                std::span<const ValueQuery> places) {
+    if (!has_derived_properties(model)) {
+        return estimator.values(places);
+    }
+    ValueBatch batch;
+    batch.extrapolation.assign(places.size(), -1);  // below any: no value yet
+    auto estimates = estimator.estimates(places);
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        batch.values.push_back(estimates[p].value);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (!std::isnan(estimates[p].value[i])) {
+                batch.extrapolation[i] = std::max(batch.extrapolation[i], estimates[p].extrapolation[i]);
+            }
+        }
+    }
+    for (auto& [property, values] : all_derived(model, estimates)) {
+        for (std::size_t p = 0; p < model.properties.size(); ++p) {
+            if (model.properties[p].name == property.name && !has_samples(model, p)) {
+                batch.values[p] = std::move(values);
+            }
+        }
+    }
+    for (double& extrapolation : batch.extrapolation) {
+        extrapolation = extrapolation < 0 ? 1 : extrapolation;
+    }
+    return batch;
 }
 
 }  // namespace terratet

@@ -19,4 +19,12 @@ namespace terratet {
 /// \param estimator  of this model, with uncertainty prepared; not used afterwards: the model it reads has changed
 void add_uncertainty(Model& model, const ModelEstimator& estimator);
 
+/// All properties of the model at other places than its vertices, those that add_uncertainty() added included.
+/// \param estimator  of this model; with uncertainty prepared if there are such properties
+ValueBatch estimated_properties(const Model& model, const ModelEstimator& estimator,
+                                std::span<const ValueQuery> places);
+
+/// Has add_uncertainty() added any?
+bool has_derived_properties(const Model& model);
+
 }  // namespace terratet

@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Tessellation to voxels by per-cell scan conversion: each cell's row spans are filled with its linear function, so
-/// the cost follows cells and voxels and no point is ever located (DESIGN §4.6).
+/// One field of a tessellation to voxels (cell_scan.hpp).
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "interp/lattice.hpp"
-#include "tess/barrier/query/own_side.hpp"
-#include "tess/model.hpp"
+#include "interp/voxels/cell_scan.hpp"
 #include "tess/progress.hpp"
 
 namespace terratet {
 
 /// A cubic brick of voxels, z fastest. Bricks at the lattice's end reach beyond it; those voxels are NaN.
 struct Tile {
-    static constexpr int edge = 64;    ///< voxels along each axis: 8 leaves of OpenVDB
+    static constexpr int edge = Brick::edge;
     std::array<std::int64_t, 3> lo{};  ///< index of its first voxel, multiples of edge
     std::span<const float> values;     ///< edge³; NaN: no value. Index ((i·edge)+j)·edge+k
 };

@@ -13,6 +13,9 @@ constexpr std::array<const char*, 14> vector_drivers{
     "CSV",    "XLSX",       "XLS",     "ODS",        "GPKG",        "ESRI Shapefile", "PostgreSQL",
     "SQLite", "FlatGeobuf", "GeoJSON", "GeoJSONSeq", "OpenFileGDB", "MapInfo File",   nullptr};
 
+/// What the writers use besides.
+constexpr std::array<const char*, 1> writing_drivers{"COG"};
+
 constexpr std::array<const char*, 14> raster_drivers{"GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
                                                      "HFA",   "SRTMHGT", "DTED",           "GSAG", "GSBG",
                                                      "GS7BG", "netCDF",  "ZMap",           nullptr};

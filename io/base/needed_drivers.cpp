@@ -20,6 +20,7 @@ void keep_needed_gdal_drivers() {
         const auto is_name = [&](const char* known) { return known && EQUAL(known, name); };
         return std::any_of(vector_drivers.begin(), vector_drivers.end(), is_name) ||
                std::any_of(raster_drivers.begin(), raster_drivers.end(), is_name) ||
+               std::any_of(writing_drivers.begin(), writing_drivers.end(), is_name) ||
                std::any_of(inner.begin(), inner.end(), is_name);
     };
     GDALDriverManager& manager = *GetGDALDriverManager();

@@ -3,9 +3,10 @@
 #include "io/export.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
+#include "interp/plan/uncertainty.hpp"
+#include "io/voxels/write_voxels.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -14,17 +15,20 @@ namespace {
 struct Format {
     const char* name;
     const char* extension;
-    OutputRecord (*write)(const ModelView&, const std::string&, const ExportOptions&);
+    OutputRecord (*write)(const ModelView&, const std::string&, const ExportOptions&);  ///< null: voxels
 };
 
 constexpr Format formats[] = {
     {"VTU", ".vtu", write_vtu},    {"GLTF", ".glb", write_gltf}, {"GLTF", ".gltf", write_gltf},
-    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},   {"VDB", ".vdb", write_vdb},
-    {"CSV", ".csv", write_csv},
+    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},   {"CSV", ".csv", write_csv},
+    {"VDB", ".vdb", nullptr},      {"GTIFF", ".tif", nullptr},   {"GTIFF", ".tiff", nullptr},
+    {"COG", ".cog", nullptr},      {"NETCDF", ".nc", nullptr},   {"BLOCKS", ".blocks", nullptr},
 };
 
 constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vdb and .csv, or `format` HTML, PNG, GLTF, VTU, VDB or CSV";
+    ".html, .png, .glb, .gltf, .vtu, .vdb, .tif, .nc and .csv, or `format` HTML, PNG, GLTF, VTU, VDB, GTIFF, COG, "
+    "NETCDF, "
+    "CSV or BLOCKS";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -51,54 +55,100 @@ const Format& format_of(const std::string& path, const std::string& override_for
     throw UsageError("'" + path + "' does not tell its format by its extension; there are " + choices);
 }
 
-/// The nearest of 1, 2 and 5 times a power of ten, by ratio.
-double rounded_1_2_5(double value) {
-    const double decade = std::pow(10.0, std::floor(std::log10(value)));
-    double best = decade;
-    for (const double step : {2.0, 5.0, 10.0}) {
-        if (std::abs(std::log(step * decade / value)) < std::abs(std::log(best / value))) {
-            best = step * decade;
-        }
-    }
-    return best;
-}
-
 }  // namespace
 
 std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap) {
-    if (gap == FaultGap::collapse && !model.barriers.empty() && format != "VDB" && format != "CSV") {
+    if (gap == FaultGap::collapse && !model.barriers.empty() && format != "CSV" && !is_voxel_format(format)) {
         return Collapsing::all;
     }
     return has_bounds(model) ? std::optional(Collapsing::bounds) : std::nullopt;
 }
 
+namespace {
+
+/// What a format shows of a model.
+ModelView view_of(const ModelSnapshot& model, const Format& format, const ExportOptions& options) {
+    const ModelEstimator* estimator = nullptr;
+    if (format.write == nullptr && options.voxel_values == VoxelValues::estimator) {
+        estimator = has_derived_properties(model.model()) ? &model.estimator_with_errors() : &model.estimator();
+    }
+    if (const auto which = collapsing(model.model(), format.name, options.fault_gap)) {
+        const CollapsedModel& collapsed = model.collapsed(*which);
+        return {collapsed.model, collapsed.mesh, collapsed.cells, estimator};
+    }
+    return {model.model(), model.mesh(), model.cells(), estimator};
+}
+
+OutputRecord write_one(const ModelView& view, const Format& format, const std::string& path,
+                       const ExportOptions& options) {
+    if (format.write == nullptr) {
+        const VoxelOutput output{path, format.name};
+        return write_voxels(view, {&output, 1}, options).front();
+    }
+    return format.write(view, path, options);
+}
+
+const std::string& format_name(const OutputRequest& output, const ExportOptions& options) {
+    return output.format.empty() ? options.format : output.format;
+}
+
+}  // namespace
+
 OutputRecord export_model(const ModelView& view, const std::string& path, const ExportOptions& options) {
-    return format_of(path, options.format).write(view, path, options);
+    return write_one(view, format_of(path, options.format), path, options);
 }
 
 OutputRecord export_model(const ModelSnapshot& model, const std::string& path, const ExportOptions& options) {
     const Format& format = format_of(path, options.format);
-    if (const auto which = collapsing(model.model(), format.name, options.fault_gap)) {
-        const CollapsedModel& collapsed = model.collapsed(*which);
-        return format.write({collapsed.model, collapsed.mesh, collapsed.cells}, path, options);
+    return write_one(view_of(model, format, options), format, path, options);
+}
+
+std::vector<OutputRecord> export_model(const ModelSnapshot& model, std::span<const OutputRequest> outputs,
+                                       const ExportOptions& options) {
+    std::vector<OutputRecord> records(outputs.size());
+    std::vector<VoxelOutput> voxels;
+    for (const OutputRequest& output : outputs) {
+        const Format& format = format_of(output.path, format_name(output, options));
+        if (format.write == nullptr) {
+            voxels.push_back({output.path, format.name});
+        }
     }
-    return format.write({model.model(), model.mesh(), model.cells()}, path, options);
+    std::vector<OutputRecord> of_voxels;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const Format& format = format_of(outputs[i].path, format_name(outputs[i], options));
+        if (format.write != nullptr) {
+            records[i] = format.write(view_of(model, format, options), outputs[i].path, options);
+        } else if (of_voxels.empty()) {
+            of_voxels = write_voxels(view_of(model, format, options), voxels, options);
+        }
+    }
+    auto next = of_voxels.begin();
+    for (OutputRecord& record : records) {
+        if (record.path.empty()) {
+            record = std::move(*next++);
+        }
+    }
+    return records;
+}
+
+bool is_voxel_format(const std::string& format) {
+    return format_of({}, format).write == nullptr;
+}
+
+std::vector<VoxelPlan> plan_voxels(const ModelView& view, std::span<const OutputRequest> outputs,
+                                   const ExportOptions& options) {
+    std::vector<VoxelPlan> plans;
+    for (const OutputRequest& output : outputs) {
+        const Format& format = format_of(output.path, format_name(output, options));
+        if (format.write == nullptr) {
+            plans.push_back(plan_voxels(view, VoxelOutput{output.path, format.name}, options));
+        }
+    }
+    return plans;
 }
 
 std::string output_format(const std::string& path, const std::string& override_format) {
     return format_of(path, override_format).name;
-}
-
-Vec3 resolved_voxel_size(const ModelView& view, const ExportOptions& options) {
-    const Vec3 side = view.model.frame.to_world_size(view.model.domain.extent.size());
-    const double longest = std::max({side.x, side.y, side.z}) / 128;
-    const double flattened = std::max(1.0, view.model.frame.z_scale);  // thin voxels where the ground is stretched
-    const Vec3 automatic{rounded_1_2_5(longest), rounded_1_2_5(longest), rounded_1_2_5(longest / flattened)};
-    Vec3 size = options.voxel_size;
-    for (int axis = 0; axis < 3; ++axis) {
-        size[axis] = size[axis] == 0 ? automatic[axis] : size[axis];
-    }
-    return size;
 }
 
 }  // namespace terratet

@@ -192,7 +192,7 @@ std::vector<VtkStrings> field_data(const Model& model, const CellTable& cells, c
 OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options) {
     OutputFile file(path, options.overwrite);
     const Model& model = view.model;
-    Contents contents = options.clip ? clipped(view, options.progress) : whole(view);
+    Contents contents = options.margin ? whole(view) : clipped(view, options.progress);
     for (Vec3& point : contents.points) {
         point = model.frame.to_world(point);
     }
@@ -246,7 +246,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
                        vtk_array("dihedral", contents.dihedral),
                        vtk_array("reason", reason)};
     piece.field_data = field_data(model, view.cells, names);
-    write_unstructured_grid(piece, options.compress, file, options.progress);
+    write_unstructured_grid(piece, options.compress.value_or(true), file, options.progress);
     return {path, file.commit(), contents.shapes};
 }
 

@@ -24,7 +24,8 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.html", "a.png", "a.vdb", "a.csv"};
+const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.html",   "a.png", "a.vdb",
+                                    "a.csv", "a.tif", "a.nc",   "a.blocks", "a.cog"};
 
 }  // namespace
 
@@ -56,10 +57,9 @@ TEST_CASE("R6: every format comes out with the same bytes each time, at any numb
     const TemporaryFolder folder;
     ExportOptions options;
     options.overwrite = true;
-    options.compress = true;
     options.voxel_size = {6, 6, 6};
-    for (const bool clip : {false, true}) {
-        options.clip = clip;
+    for (const bool margin : {false, true}) {
+        options.margin = margin;
         for (const char* name : every_format) {
             std::vector<std::string> versions;
             for (const std::size_t threads : {1, 2, 5}) {

@@ -8,7 +8,7 @@
 
 #include "grid_model.hpp"
 #include "io/export.hpp"
-#include "io/write/vdb_identity.hpp"
+#include "io/voxels/vdb_identity.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 
@@ -33,10 +33,10 @@ TEST_CASE("A VDB file's identity follows from its content: equal files have equa
     const TemporaryFolder folder;
     ExportOptions options;
     options.voxel_size = {25, 25, 25};
-    write_vdb({grid.model, grid.mesh, grid.cells}, folder / "a.vdb", options);
-    write_vdb({grid.model, grid.mesh, grid.cells}, folder / "b.vdb", options);
+    export_model(ModelView{grid.model, grid.mesh, grid.cells}, folder / "a.vdb", options);
+    export_model(ModelView{grid.model, grid.mesh, grid.cells}, folder / "b.vdb", options);
     grid.model.vertex_values.values[0][300] *= 1.001;
-    write_vdb({grid.model, grid.mesh, grid.cells}, folder / "c.vdb", options);
+    export_model(ModelView{grid.model, grid.mesh, grid.cells}, folder / "c.vdb", options);
     const std::string a = bytes_of(folder / "a.vdb");
     const std::string c = bytes_of(folder / "c.vdb");
     CHECK((a == bytes_of(folder / "b.vdb")));
@@ -62,6 +62,6 @@ TEST_CASE("A lattice too large to write is refused with a voxel size that fits, 
     const TemporaryFolder folder;
     ExportOptions options;
     options.voxel_size = {0.01, 0.01, 0.01};
-    CHECK_THROWS_AS(write_vdb({grid.model, grid.mesh, grid.cells}, folder / "a.vdb", options), UsageError);
+    CHECK_THROWS_AS(export_model(ModelView{grid.model, grid.mesh, grid.cells}, folder / "a.vdb", options), UsageError);
     CHECK(std::filesystem::is_empty(folder.path()));
 }

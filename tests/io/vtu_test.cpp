@@ -21,7 +21,10 @@ TEST_CASE("VTU holds true coordinates bit for bit, little more than its arrays, 
     grid.model.properties[2].name = "role";
     const ModelView view{grid.model, grid.mesh, grid.cells};
     const TemporaryFolder folder;
-    write_vtu(view, folder / "a.vtu", {});
+    ExportOptions options;
+    options.margin = true;
+    options.compress = false;
+    write_vtu(view, folder / "a.vtu", options);
     std::ifstream file(folder / "a.vtu", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
 

@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
     ExportOptions options;
     options.overwrite = true;
     options.voxel_size = {10, 10, 10};
-    for (const char* name : {"model.vtu", "model.glb", "model.gltf", "model.vdb", "model.csv"}) {
+    options.margin = true;
+    options.all_fields = true;
+    for (const char* name :
+         {"model.vtu", "model.glb", "model.gltf", "model.vdb", "model.tif", "model.nc", "model.csv"}) {
         export_model(view, folder + name, options);
     }
     options.enu = true;
@@ -33,11 +36,17 @@ int main(int argc, char** argv) {
     options.enu = false;
     options.local_origin = true;
     export_model(view, folder + "local.vdb", options);
-    options.compress = true;
-    export_model(view, folder + "compressed.vtu", options);
-    export_model(view, folder + "packed.glb", options);
     options.compress = false;
-    options.clip = true;
+    export_model(view, folder + "plain.vtu", options);
+    options.compress = true;
+    export_model(view, folder + "packed.glb", options);
+    options.format = "BLOCKS";
+    export_model(view, folder + "blocks.csv", options);
+    options.format = "COG";
+    export_model(view, folder + "cog.tif", options);
+    options.format.clear();
+    options.margin = false;
+    options.compress = false;
     export_model(view, folder + "clipped.vtu", options);
     options.color_property = "lithology";
     export_model(view, folder + "classes.glb", options);

@@ -41,7 +41,7 @@ class ClipCase(Case):
 class Clip(ClipCase):
     def test_cells_at_the_extent_are_as_good_as_others_and_have_the_models_values(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
-        self.succeed("export", "m.gpkg", "whole.vtu")
+        self.succeed("export", "--margin", "m.gpkg", "whole.vtu")
         account = self.export("clip.vtu")
         shapes = self.check("clip.vtu", EXTENT.split(","), 60, "--whole", "whole.vtu")
         self.assert_good(shapes, account)

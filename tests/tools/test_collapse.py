@@ -20,7 +20,7 @@ class Collapse(Case):
     def test_a_collapsed_mesh_is_one_that_finite_element_codes_accept(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
         self.succeed("export", "m.gpkg", "kept.vtu")
-        self.succeed("export", "--fault-gap", "collapse", "--report", "hull.json", "m.gpkg", "hull.vtu")
+        self.succeed("export", "--fault-gap", "collapse", "--margin", "--report", "hull.json", "m.gpkg", "hull.vtu")
         self.succeed("export", "-co", "FAULT_GAP=collapse", "--clip", "m.gpkg", "clipped.vtu")
         self.assertNotEqual(self.run_check("kept.vtu").returncode, 0)  # the checker tells: gap cells are no region's
         report = json.loads((self.folder / "hull.json").read_text())["collapse"]
@@ -35,7 +35,7 @@ class Collapse(Case):
 
     def test_so_is_one_of_an_exact_fault_which_has_its_own_triangles(self):
         self.succeed("build", *twin_inputs(), "--fault-mode", "exact", "-o", "m.gpkg")
-        self.succeed("export", "--fault-gap", "collapse", "--report", "hull.json", "m.gpkg", "hull.vtu")
+        self.succeed("export", "--fault-gap", "collapse", "--margin", "--report", "hull.json", "m.gpkg", "hull.vtu")
         self.succeed("export", "--fault-gap", "collapse", "--clip", "m.gpkg", "clipped.vtu")
         report = json.loads((self.folder / "hull.json").read_text())["collapse"]
         self.assertEqual(self.check("hull.vtu")["mirrored"], report["mirrored_facets"])

@@ -7,7 +7,7 @@ import unittest
 
 from terratet import Case, TWIN, twin_inputs
 
-FORMATS = ["m.vtu", "m.glb", "m.html", "m.png", "m.vdb", "m.csv"]
+FORMATS = ["m.vtu", "m.glb", "m.html", "m.png", "m.vdb", "m.csv", "m.tif", "m.nc"]
 
 
 class Determinism(Case):

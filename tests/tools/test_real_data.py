@@ -70,7 +70,7 @@ class RealData(Case):
     def test_babbitt_with_a_dipping_fault(self):
         """399 holes in feet with 35,616 assay intervals; a third of them without copper."""
         fault = self.write("fault.csv", dipping_fault((2297200, 418500, 300), 55, 60, 10000, 3000, 250))
-        result = self.succeed("convert", "--boreholes", BABBITT / "collar_BABBITT.csv", "--survey",
+        result = self.succeed("convert", "--margin", "--boreholes", BABBITT / "collar_BABBITT.csv", "--survey",
                               BABBITT / "survey_BABBITT.csv", "--log", BABBITT / "assay_BABBITT.csv", "--faults", fault,
                               "-s_srs", "EPSG:26791", "--property", "CU", "--lmin", "300", "--lmax", "1200",
                               "--report", "report.json", *OUTPUTS)
@@ -88,7 +88,7 @@ class RealData(Case):
 
     @unittest.skipUnless(DEMO1.exists(), "public data set pygslib is not there")
     def test_demo1(self):
-        self.succeed("convert", "--boreholes", DEMO1 / "collar.csv", "--survey", DEMO1 / "survey.csv", "--log",
+        self.succeed("convert", "--margin", "--boreholes", DEMO1 / "collar.csv", "--survey", DEMO1 / "survey.csv", "--log",
                      DEMO1 / "assay.csv", "-s_srs", "local", "--property", "Au", "--lmin", "5", "--lmax", "25",
                      "--report", "report.json", *OUTPUTS)
         report = self.report()

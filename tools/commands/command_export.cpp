@@ -43,6 +43,9 @@ class Export final : public Command {
         }
         RunRecord record;
         record.model = live.snapshot();
+        if (say_plan(*record.model, outputs, exporting_)) {
+            return exit_done;
+        }
         const Stopwatch writing;
         static_cast<void>(record.model->cells());  // needs the tessellation
         record.model->release_memory();

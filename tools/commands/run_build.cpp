@@ -23,11 +23,17 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
     std::optional<LiveModel> live;
     {
         ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
-        const Progress progress = display.callback();
-        live.emplace(read_and_build(a.site, a.model, a.run, progress, build));
+        live.emplace(read_and_build(a.site, a.model, a.run, display.callback(), build));
         if (a.exporting.uncertainty) {
             live->add_uncertainty();
         }
+    }
+    if (say_plan(*live->snapshot(), a.outputs, a.exporting)) {
+        return exit_done;
+    }
+    {
+        ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
+        const Progress progress = display.callback();
         const Stopwatch writing;
         record.model = live->snapshot();
         if (!a.run.report.empty()) {

@@ -54,6 +54,11 @@ FaultGap fault_gap(const ExportArguments& a) {
     return choose<FaultGap>("--fault-gap", a.fault_gap, {{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}});
 }
 
+VoxelValues voxel_values(const ExportArguments& a) {
+    return choose<VoxelValues>("--values", a.values,
+                               {{"linear", VoxelValues::linear}, {"estimator", VoxelValues::estimator}});
+}
+
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count) {
     std::vector<double> numbers;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -85,8 +90,8 @@ ExportOptions scene_options(const ExportArguments& a) {
     }
     if (!a.max_extrapolation.empty()) {
         options.max_extrapolation = parse_numbers("--max-extrapolation", a.max_extrapolation, 1)[0];
-        if (*options.max_extrapolation < 0) {
-            throw UsageError(fmt::format("--max-extrapolation: {} is below 0", a.max_extrapolation));
+        if (!(*options.max_extrapolation >= 0 && *options.max_extrapolation <= 1)) {
+            throw UsageError(fmt::format("--max-extrapolation: {} is not within 0 and 1", a.max_extrapolation));
         }
     }
     if (!a.size.empty()) {
@@ -104,54 +109,87 @@ ExportOptions scene_options(const ExportArguments& a) {
 
 }  // namespace
 
+OutputRequest parse_output(const std::string& text) {
+    constexpr std::string_view key = ",of=";
+    const std::size_t comma = text.rfind(key);
+    if (comma == std::string::npos) {
+        return {text};
+    }
+    const OutputRequest output{text.substr(0, comma), text.substr(comma + key.size())};
+    if (output.path.empty() || output.format.empty()) {
+        throw UsageError(fmt::format("'{}': is not OUTPUT,of=FORMAT", text));
+    }
+    return output;
+}
+
 std::vector<OptionGroup> export_options(ExportArguments& a) {
-    return {{"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vdb, .csv)",
-             {
-                 {{"of"},
-                  "FORMAT",
-                  "instead of the extension's: HTML, PNG, GLTF, VTU, VDB, CSV; with it the output may be -, standard "
-                  "output",
-                  &a.format},
-                 {{"tr", "voxel-size"},
-                  "LENGTH[,LENGTH,LENGTH]",
-                  "of voxels; by default about a 128th of the longest side",
-                  &a.voxel_size,
-                  3},
-                 {{"clip"}, "", "VTU: cut the cells at the extent", &a.clip},
-                 {{"fault-gap"},
-                  "HOW",
-                  "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
-                  "fault, its nodes split",
-                  &a.fault_gap},
-                 {{"compress"}, "", "VTU: with zlib; glTF: with meshopt, 16 bits an axis", &a.compress},
-                 {{"local-origin"},
-                  "",
-                  "VDB: coordinates from the model's origin, for Blender and Houdini",
-                  &a.local_origin},
-                 {{"uncertainty"},
-                  "",
-                  "with each property's standard deviation, 95 % half-width, extrapolation and number of samples; of a "
-                  "category "
-                  "the classes' probabilities and entropy",
-                  &a.uncertainty},
-                 {{"color"}, "PROPERTY", "scenes: what to colour by; the first by default", &a.color},
-                 {{"color-map"}, "NAME", "scenes: viridis by default", &a.color_map},
-                 {{"section"},
-                  "WHERE",
-                  "scenes: a section x1,y1,x2,y2 (upright), z=V (level) or AZIMUTH,x,y; repeatable; by default two "
-                  "through the middle of the samples",
-                  &a.sections},
-                 {{"iso"},
-                  "PROPERTY=VALUE[,VALUE]",
-                  "scenes: isosurfaces; repeatable; by default at the quartiles of what is coloured",
-                  &a.iso},
-                 {{"max-extrapolation"},
-                  "E",
-                  "scenes: grey where the extrapolation is above E, 0 to 1; by default where no sample reaches",
-                  &a.max_extrapolation},
-                 {{"size"}, "WIDTH,HEIGHT", "PNG: in pixels, 1600,1000 by default", &a.size},
-                 {{"co"}, "KEY=VALUE", "the same as creation options: -co COMPRESS=YES", &a.creation_options},
-             }}};
+    return {
+        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vdb, .tif, .nc, .csv)",
+         {
+             {{"of"},
+              "FORMAT",
+              "instead of the extension's: HTML, PNG, GLTF, VTU, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS; with it the "
+              "output may be "
+              "-, standard output; of one output among several: OUTPUT,of=FORMAT",
+              &a.format},
+             {{"tr", "voxel-size"},
+              "LENGTH[,LENGTH,LENGTH]",
+              "of voxels; by default about a 128th of the longest side",
+              &a.voxel_size,
+              3},
+             {{"values"},
+              "KIND",
+              "of voxels: linear (default), the tessellation's field, or estimator, what all samples say at each "
+              "centre",
+              &a.values},
+             {{"max-extrapolation"},
+              "E",
+              "voxels: no value where the extrapolation is above E, 0 to 1; scenes: grey there; by default all have "
+              "one, "
+              "and grey is where no sample reaches",
+              &a.max_extrapolation},
+             {{"dry-run"}, "", "only say what outputs of voxels would take", &a.dry_run},
+             {{"allow-large"}, "", "write outputs of voxels above 2 GiB too", &a.allow_large},
+             {{"margin"}, "", "VTU: all cells, uncut, of the box that reaches beyond the extent", &a.margin},
+             {{"clip"}, "", "VTU: is what is done anyway, unless --margin", &a.clip},
+             {{"fault-gap"},
+              "HOW",
+              "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
+              "fault, its nodes split",
+              &a.fault_gap},
+             {{"compress"},
+              "",
+              "glTF: with meshopt, 16 bits an axis; VTU, GeoTIFF and netCDF are compressed unless -co COMPRESS=NO",
+              &a.compress},
+             {{"half"}, "", "VDB: 16-bit floats", &a.half},
+             {{"local-origin"},
+              "",
+              "VDB: coordinates from the model's origin, for Blender and Houdini",
+              &a.local_origin},
+             {{"uncertainty"},
+              "",
+              "with each property's standard deviation, 95 % half-width, extrapolation and number of samples; of a "
+              "category "
+              "the classes' probabilities and entropy",
+              &a.uncertainty},
+             {{"color"}, "PROPERTY", "scenes: what to colour by; the first by default", &a.color},
+             {{"color-map"}, "NAME", "scenes: viridis by default", &a.color_map},
+             {{"section"},
+              "WHERE",
+              "scenes: a section x1,y1,x2,y2 (upright), z=V (level) or AZIMUTH,x,y; repeatable; by default two "
+              "through the middle of the samples",
+              &a.sections},
+             {{"iso"},
+              "PROPERTY=VALUE[,VALUE]",
+              "scenes: isosurfaces; repeatable; by default at the quartiles of what is coloured",
+              &a.iso},
+             {{"size"}, "WIDTH,HEIGHT", "PNG: in pixels, 1600,1000 by default", &a.size},
+             {{"co"},
+              "KEY=VALUE",
+              "the same as creation options: -co COMPRESS=NO; ALIGN=NO centres voxels on the extent, FIELDS=ALL gives "
+              "GeoTIFF bands of extrapolation and region",
+              &a.creation_options},
+         }}};
 }
 
 ExportArguments with_creation_options(ExportArguments a) {
@@ -166,6 +204,15 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.clip = as_flag(key, value);
         } else if (key == "COMPRESS") {
             a.compress = as_flag(key, value);
+            a.uncompressed = !a.compress;
+        } else if (key == "MARGIN") {
+            a.margin = as_flag(key, value);
+        } else if (key == "HALF") {
+            a.half = as_flag(key, value);
+        } else if (key == "ALIGN") {
+            a.centred = !as_flag(key, value);
+        } else if (key == "FIELDS") {
+            a.all_fields = choose<bool>("-co FIELDS", upper(value), {{"ALL", true}, {"PROPERTIES", false}});
         } else if (key == "LOCAL_ORIGIN") {
             a.local_origin = as_flag(key, value);
         } else if (key == "FAULT_GAP") {
@@ -182,7 +229,8 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.frame = value;
         } else {
             throw UsageError(fmt::format(
-                "-co: '{}' is not one of CLIP, COMPRESS, LOCAL_ORIGIN, VOXEL_SIZE, FAULT_GAP, COLOR, COLOR_MAP, FRAME",
+                "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
+                "LOCAL_ORIGIN, MARGIN, VOXEL_SIZE",
                 key));
         }
     }
@@ -197,6 +245,7 @@ void check_export_arguments(const ExportArguments& arguments) {
     }
     fault_gap(a);
     scene_options(a);
+    voxel_values(a);
 }
 
 ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {
@@ -204,8 +253,15 @@ ExportOptions writer_options(const ExportArguments& arguments, const Model& mode
     ExportOptions options = scene_options(a);
     options.format = a.format;
     options.fault_gap = fault_gap(a);
-    options.clip = a.clip;
-    options.compress = a.compress;
+    options.margin = a.margin;
+    if (a.compress || a.uncompressed) {
+        options.compress = a.compress;
+    }
+    options.voxel_values = voxel_values(a);
+    options.allow_large = a.allow_large;
+    options.half = a.half;
+    options.aligned = !a.centred;
+    options.all_fields = a.all_fields;
     options.local_origin = a.local_origin;
     options.color_map = a.color_map;
     if (!a.voxel_size.empty()) {

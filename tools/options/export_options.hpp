@@ -15,8 +15,16 @@ namespace terratet::tools {
 struct ExportArguments {
     std::string format;
     std::string voxel_size;
+    std::string values = "linear";
+    bool margin = false;
     bool clip = false;
     bool compress = false;
+    bool uncompressed = false;  ///< -co COMPRESS=NO
+    bool allow_large = false;
+    bool dry_run = false;
+    bool half = false;
+    bool centred = false;     ///< -co ALIGN=NO
+    bool all_fields = false;  ///< -co FIELDS=ALL
     bool local_origin = false;
     bool uncertainty = false;
     std::string fault_gap = "keep";
@@ -34,6 +42,9 @@ std::vector<OptionGroup> export_options(ExportArguments& arguments);
 
 /// Creation options (-co COMPRESS=YES) put into their named twins (--compress). Throws UsageError for an unknown one.
 ExportArguments with_creation_options(ExportArguments arguments);
+
+/// `FILE[,of=FORMAT]`. Throws UsageError when nothing is left of the file's name.
+OutputRequest parse_output(const std::string& text);
 
 /// Throws UsageError for what can be refused before there is a model.
 void check_export_arguments(const ExportArguments& arguments);

@@ -8,15 +8,19 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
 #include "io/base/output_file.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
+#include "tools/options/text.hpp"
 #include "tools/run/process.hpp"
 #include "tools/version.hpp"
 
@@ -135,23 +139,39 @@ std::string made_by(const Model& model) {
     return method.empty() ? text : fmt::format("{} --estimator {}", text, method);
 }
 
+const std::string& format_of(const OutputRequest& output, const ExportArguments& arguments) {
+    return output.format.empty() ? arguments.format : output.format;
+}
+
+/// Standard output is written on its own.
+bool is_voxels(const OutputRequest& output, const ExportArguments& arguments) {
+    return output.path != standard_output && is_voxel_format(output_format(output.path, format_of(output, arguments)));
+}
+
 }  // namespace
 
 bool names_model(const std::string& path) {
     return path.ends_with(".gpkg") || path.starts_with("PG:");
 }
 
-void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& inputs,
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                    const ExportArguments& arguments, const RunArguments& run) {
-    for (const auto& path : paths) {
-        if (!names_model(path)) {
-            output_format(path, arguments.format);
+    std::vector<std::string> paths;
+    for (const auto& text : outputs) {
+        if (names_model(text)) {
+            paths.push_back(text);
+        } else {
+            const OutputRequest output = parse_output(text);
+            output_format(output.path, format_of(output, arguments));
+            paths.push_back(output.path);
         }
     }
     if (run.report == standard_output && std::ranges::find(paths, standard_output) != paths.end()) {
         throw UsageError("-: standard output cannot take an output and the report");
     }
-    check_places(paths, inputs, run);
+    RunArguments of_places = run;
+    of_places.overwrite |= arguments.dry_run;  // nothing will be replaced
+    check_places(paths, inputs, of_places);
 }
 
 void check_places(std::vector<std::string> paths, const std::vector<std::string>& inputs, const RunArguments& run) {
@@ -179,7 +199,39 @@ void check_places(std::vector<std::string> paths, const std::vector<std::string>
     }
 }
 
-Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& paths,
+std::vector<std::string> plan_lines(const ModelSnapshot& model, const std::vector<std::string>& texts,
+                                    const ExportArguments& arguments) {
+    std::vector<OutputRequest> outputs;
+    for (const auto& text : texts) {
+        if (!names_model(text)) {
+            outputs.push_back(parse_output(text));
+        }
+    }
+    std::vector<std::string> lines;
+    const ExportOptions options = writer_options(arguments, model.model());
+    const ModelView view{model.model(), model.mesh(), model.cells()};
+    for (const VoxelPlan& plan : plan_voxels(view, outputs, options)) {
+        const auto [nx, ny, nz] = plan.voxels;
+        lines.push_back(fmt::format("{}: {} × {} × {} voxels of {} × {} × {}, {} in all, at most {}", plan.path, nx, ny,
+                                    nz, short_number(plan.voxel_size.x), short_number(plan.voxel_size.y),
+                                    short_number(plan.voxel_size.z), grouped(static_cast<std::uint64_t>(nx * ny * nz)),
+                                    byte_size(plan.bytes)));
+    }
+    return lines;
+}
+
+bool say_plan(const ModelSnapshot& model, const std::vector<std::string>& texts, const ExportArguments& arguments) {
+    for (const std::string& line : plan_lines(model, texts, arguments)) {
+        if (arguments.dry_run) {
+            write_to_standard_output(line + "\n");
+        } else {
+            spdlog::info("{:10}{}", "Voxels", line);
+        }
+    }
+    return arguments.dry_run;
+}
+
+Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& texts,
                       const ExportArguments& arguments, const RunArguments& run, const JournalEntry& entry,
                       const Progress& progress) {
     ExportOptions options = writer_options(arguments, model.model());
@@ -187,30 +239,51 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     options.progress = progress;
     options.made_by = made_by(model.model());
     Written written;
-    const auto write_output = [&](const std::string& path) {
-        if (names_model(path)) {
-            save_model(path, model.model(), entry, run.overwrite);
+    std::vector<OutputRequest> voxels;  // share one pass, when the first of them is due
+    for (const auto& text : texts) {
+        if (!names_model(text) && is_voxels(parse_output(text), arguments)) {
+            voxels.push_back(parse_output(text));
+        }
+    }
+    bool voxels_written = false;
+    const auto write_output = [&](const std::string& text) {
+        if (names_model(text)) {
+            save_model(text, model.model(), entry, run.overwrite);
             std::error_code no_file;
-            const auto bytes = fs::file_size(path, no_file);
-            written.outputs.push_back({path, no_file ? 0 : bytes});
+            const auto bytes = fs::file_size(text, no_file);
+            written.outputs.push_back({text, no_file ? 0 : bytes});
             return;
         }
-        written.outputs.push_back(path == standard_output ? export_to_standard_output(model, options)
-                                                          : export_model(model, path, options));
-        const auto which = collapsing(model.model(), output_format(path, arguments.format), options.fault_gap);
+        const OutputRequest output = parse_output(text);
+        ExportOptions of_output = options;
+        of_output.format = format_of(output, arguments);
+        if (output.path == standard_output) {
+            written.outputs.push_back(export_to_standard_output(model, of_output));
+        } else if (!is_voxels(output, arguments)) {
+            written.outputs.push_back(export_model(model, output.path, of_output));
+        } else if (!std::exchange(voxels_written, true)) {
+            auto records = export_model(model, voxels, options);
+            std::ranges::move(records, std::back_inserter(written.outputs));
+        }
+        const auto which = collapsing(model.model(), output_format(output.path, of_output.format), options.fault_gap);
         if (which && (which == Collapsing::all || !written.collapse)) {
             written.collapse = model.collapsed(*which).report;
         }
     };
-    for (const auto& path : paths) {
+    for (const auto& text : texts) {
         try {
             report_progress(progress, "write",
-                            static_cast<double>(written.outputs.size()) / static_cast<double>(paths.size()));
-            write_named(path, [&] { write_output(path); });
+                            static_cast<double>(written.outputs.size()) / static_cast<double>(texts.size()));
+            write_named(text, [&] { write_output(text); });
         } catch (...) {
             rethrow_naming(written.outputs);
         }
     }
+    std::ranges::sort(written.outputs, {}, [&](const OutputRecord& record) {
+        return std::ranges::find_if(texts, [&](const std::string& text) {
+            return record.path == (names_model(text) ? text : parse_output(text).path);
+        });
+    });
     return written;
 }
 

@@ -33,6 +33,13 @@ struct Written {
     std::optional<CollapseReport> collapse;
 };
 
+/// A line an output of voxels: what it will take. Throws UsageError for what is too large without --allow-large.
+std::vector<std::string> plan_lines(const ModelSnapshot& model, const std::vector<std::string>& paths,
+                                    const ExportArguments& arguments);
+
+/// Says it before anything is written; on standard output, and true, where that is all that is asked for.
+bool say_plan(const ModelSnapshot& model, const std::vector<std::string>& paths, const ExportArguments& arguments);
+
 /// Writes all of `paths`: models through `entry`, the rest through their writers. An error names what was written
 /// before.
 Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>& paths,

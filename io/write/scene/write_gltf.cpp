@@ -17,7 +17,7 @@ OutputRecord write_gltf(const ModelView& view, const std::string& path, const Ex
     const Scene scene = make_scene(view, options);
     report_progress(options.progress, "write gltf", 0.5);
     const bool binary = std::filesystem::path(path).extension() != ".gltf";
-    GltfText text = gltf_document(scene, view.model, options.compress);
+    GltfText text = gltf_document(scene, view.model, options.compress.value_or(false));
     file.write(binary ? to_glb(text) : to_gltf(std::move(text)));
     report_progress(options.progress, "write gltf", 1);
     return {path, file.commit()};

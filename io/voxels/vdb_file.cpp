@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/write/vdb_file.hpp"
+#include "io/voxels/vdb_file.hpp"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 
 #include <cerrno>
 #include <cstdint>
@@ -11,26 +12,53 @@
 #include <fstream>
 
 #include "io/base/output_file.hpp"
-#include "io/write/vdb_identity.hpp"
+#include "io/voxels/vdb_identity.hpp"
+#include "io/voxels/vdb_leaves.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-/// OpenVDB's format on a stream of ours.
+/// OpenVDB's format on a stream of ours, step by step: its own function works on copies of the grids, which would not
+/// know where their values are, and reads all values once more for an index that only speeds up delayed loading.
 class GridArchive : public openvdb::io::Archive {
   public:
     void write_to(std::ostream& out, const openvdb::GridPtrVec& grids, const openvdb::MetaMap& meta) const {
-        write(out, grids, /*seekable=*/true, meta);
+        writeHeader(out, /*seekable=*/true);
+        meta.writeMeta(out);
+        const auto count = static_cast<std::int32_t>(grids.size());
+        out.write(reinterpret_cast<const char*>(&count), sizeof count);
+        for (const auto& grid : grids) {
+            write_one(out, *grid);
+        }
+    }
+
+  private:
+    void write_one(std::ostream& out, openvdb::GridBase& grid) const {
+        openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
+        descriptor.writeHeader(out);
+        const auto offsets = out.tellp();
+        descriptor.writeStreamPos(out);  // to make room
+        descriptor.setGridPos(out.tellp());
+        setGridCompression(out, grid);
+        grid.addStatsMetadata();
+        constexpr std::uint64_t leaf_values = 512 * sizeof(float);  // which are elsewhere
+        grid.insertMeta(openvdb::GridBase::META_FILE_MEM_BYTES,
+                        openvdb::Int64Metadata(static_cast<std::int64_t>(grid.baseTree().memUsage() +
+                                                                         leaf_values * grid.baseTree().leafCount())));
+        grid.insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,
+                        openvdb::StringMetadata(openvdb::io::compressionToString(compression())));
+        grid.writeMeta(out);
+        grid.writeTransform(out);
+        grid.writeTopology(out);
+        descriptor.setBlockPos(out.tellp());
+        grid.writeBuffers(out);
+        descriptor.setEndPos(out.tellp());
+        out.seekp(offsets);
+        descriptor.writeStreamPos(out);
+        descriptor.seekToEnd(out);
     }
 };
-
-std::uint32_t compression() {
-    return openvdb::io::COMPRESS_ACTIVE_MASK |
-           (openvdb::io::Archive::hasBloscCompression()  ? openvdb::io::COMPRESS_BLOSC
-            : openvdb::io::Archive::hasZLibCompression() ? openvdb::io::COMPRESS_ZIP
-                                                         : openvdb::io::COMPRESS_NONE);
-}
 
 /// Returns the bytes written. The stream throws at the first that does not get through.
 std::uintmax_t write_grids(const std::string& path, const std::string& shown, const openvdb::GridPtrVec& grids,
@@ -41,7 +69,7 @@ std::uintmax_t write_grids(const std::string& path, const std::string& shown, co
         out.exceptions(std::ios::failbit | std::ios::badbit);
         out.open(path, std::ios::binary | std::ios::trunc);
         GridArchive archive;
-        archive.setCompression(compression());
+        archive.setCompression(vdb_compression());
         archive.write_to(out, grids, meta);
         out.seekp(0, std::ios::end);
         const auto bytes = static_cast<std::uintmax_t>(out.tellp());
@@ -75,6 +103,13 @@ void require_whole(const std::string& path, const std::string& shown, const open
 }
 
 }  // namespace
+
+std::uint32_t vdb_compression() {
+    return openvdb::io::COMPRESS_ACTIVE_MASK |
+           (openvdb::io::Archive::hasBloscCompression()  ? openvdb::io::COMPRESS_BLOSC
+            : openvdb::io::Archive::hasZLibCompression() ? openvdb::io::COMPRESS_ZIP
+                                                         : openvdb::io::COMPRESS_NONE);
+}
 
 void write_vdb_file(const std::string& path, const std::string& shown, const openvdb::GridPtrVec& grids,
                     const openvdb::MetaMap& meta) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/write/vdb_identity.hpp"
+#include "io/voxels/vdb_identity.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,6 +11,8 @@
 /// | .glb .gltf | glTF 2.0 scene | write_gltf |
 /// | .html | a page to look at the scene with | write_html |
 /// | .png | a picture of the scene | write_png |
+/// | .vtm | the mesh, boreholes and barriers for VTK, in a folder | write_vtm |
+/// | .msh | Gmsh, with physical names | write_msh |
 /// | .csv | vertices with values | write_csv |
 /// | .vdb | OpenVDB, a grid a property | voxels |
 /// | .tif | GeoTIFF or COG, a band a slice | voxels |
@@ -69,6 +71,8 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
 OutputRecord write_gltf(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_html(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_png(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_vtm(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_msh(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
 
 /// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. Gap cells are no

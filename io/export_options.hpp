@@ -67,12 +67,13 @@ struct ExportOptions {
                                    ///< 1-2-5
     VoxelValues voxel_values = VoxelValues::linear;
     std::optional<double> max_extrapolation;  ///< voxels: beyond it no property has values; scenes: grey beyond
-    bool aligned = true;        ///< voxels: their edges are multiples of their size on the map; else they are centred
-    bool allow_large = false;   ///< voxels: also more than large_output bytes
-    bool half = false;          ///< VDB: 16-bit floats
-    bool all_fields = false;    ///< GeoTIFF: bands for extrapolation and region too
-    bool cog = false;           ///< GeoTIFF: cloud-optimised
-    bool local_origin = false;  ///< VDB: grid in frame-local coordinates, for float-based tools
+    bool aligned = true;         ///< voxels: their edges are multiples of their size on the map; else they are centred
+    bool allow_large = false;    ///< voxels: also more than large_output bytes
+    bool msh_version_2 = false;  ///< Gmsh: version 2.2 of its format instead of 4.1
+    bool half = false;           ///< VDB: 16-bit floats
+    bool all_fields = false;     ///< GeoTIFF: bands for extrapolation and region too
+    bool cog = false;            ///< GeoTIFF: cloud-optimised
+    bool local_origin = false;   ///< VDB: grid in frame-local coordinates, for float-based tools
     // Of scenes (glTF, HTML, PNG):
     std::string color_property;  ///< which property colours the scene; empty: the first
     std::string color_map = "viridis";

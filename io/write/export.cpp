@@ -19,14 +19,16 @@ struct Format {
 };
 
 constexpr Format formats[] = {
-    {"VTU", ".vtu", write_vtu},    {"GLTF", ".glb", write_gltf}, {"GLTF", ".gltf", write_gltf},
-    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},   {"CSV", ".csv", write_csv},
-    {"VDB", ".vdb", nullptr},      {"GTIFF", ".tif", nullptr},   {"GTIFF", ".tiff", nullptr},
-    {"COG", ".cog", nullptr},      {"NETCDF", ".nc", nullptr},   {"BLOCKS", ".blocks", nullptr},
+    {"VTU", ".vtu", write_vtu},    {"GLTF", ".glb", write_gltf},   {"GLTF", ".gltf", write_gltf},
+    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},     {"CSV", ".csv", write_csv},
+    {"VTM", ".vtm", write_vtm},    {"MSH", ".msh", write_msh},     {"VDB", ".vdb", nullptr},
+    {"GTIFF", ".tif", nullptr},    {"GTIFF", ".tiff", nullptr},    {"COG", ".cog", nullptr},
+    {"NETCDF", ".nc", nullptr},    {"BLOCKS", ".blocks", nullptr},
 };
 
 constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vdb, .tif, .nc and .csv, or `format` HTML, PNG, GLTF, VTU, VDB, GTIFF, COG, "
+    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc and .csv, or `format` HTML, PNG, GLTF, VTU, VTM, MSH, "
+    "VDB, GTIFF, COG, "
     "NETCDF, "
     "CSV or BLOCKS";
 

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write/vtk_xml.hpp"
 
+#include <libdeflate.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
 
 #include <bit>
 #include <cstring>
+#include <memory>
 
 #include "tess/error.hpp"
 
@@ -18,8 +19,9 @@ constexpr std::size_t block_size = 1 << 16;
 
 using Bytes = std::vector<std::byte>;
 
-/// Text in an attribute.
-std::string escaped(std::string_view text) {
+}  // namespace
+
+std::string vtk_escaped(std::string_view text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
@@ -43,6 +45,8 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
+namespace {
+
 /// What stands in the file for one array: its length, or its block table, then its bytes.
 struct Encoded {
     std::vector<std::uint64_t> head;
@@ -58,15 +62,19 @@ struct Encoded {
     }
 };
 
-/// Level 1: on these arrays as small as level 6, give or take a few percent, three times faster.
+struct CompressorDeleter {
+    void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+};
+
+/// As zlib does, several times faster. Level 1: on these arrays as small as level 6, give or take a few percent.
 Bytes deflated(std::span<const std::byte> plain) {
-    uLongf size = compressBound(static_cast<uLong>(plain.size()));
-    Bytes result(size);
-    if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(plain.data()),
-                  static_cast<uLong>(plain.size()), Z_BEST_SPEED) != Z_OK) {
-        throw Error("zlib failed to compress: out of memory");
+    thread_local const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(
+        libdeflate_alloc_compressor(1));
+    if (!compressor) {
+        throw Error("libdeflate failed to compress: out of memory");
     }
-    result.resize(size);
+    Bytes result(libdeflate_zlib_compress_bound(compressor.get(), plain.size()));
+    result.resize(libdeflate_zlib_compress(compressor.get(), plain.data(), plain.size(), result.data(), result.size()));
     return result;
 }
 
@@ -101,13 +109,13 @@ class Document {
     void write(OutputFile& file) {
         header();
         field_data();
-        text_ += "<Piece NumberOfPoints=\"" + std::to_string(piece_.points) + "\" NumberOfCells=\"" +
+        text_ += "<Piece NumberOfPoints=\"" + std::to_string(piece_.points) + "\" NumberOf" + cells_section() + "=\"" +
                  std::to_string(piece_.cells) + "\">\n";
         section("Points", {piece_.coordinates});
-        section("Cells", piece_.topology);
+        section(cells_section(), piece_.topology);
         section("PointData", piece_.point_data, piece_.active_scalars);
         section("CellData", piece_.cell_data);
-        text_ += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+        text_ += std::string("</Piece>\n</") + type() + ">\n<AppendedData encoding=\"raw\">\n_";
         file.write(text_);
         for (const Encoded& encoded : encoded_) {
             file.write(std::as_bytes(std::span(encoded.head)));
@@ -120,19 +128,28 @@ class Document {
     }
 
   private:
+    [[nodiscard]] const char* type() const {
+        return piece_.kind == VtkPiece::Kind::cells ? "UnstructuredGrid" : "PolyData";
+    }
+    [[nodiscard]] const char* cells_section() const {
+        return piece_.kind == VtkPiece::Kind::cells   ? "Cells"
+               : piece_.kind == VtkPiece::Kind::lines ? "Lines"
+                                                      : "Polys";
+    }
+
     void header() {
-        text_ = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+        text_ = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"") + type() + "\" version=\"1.0\" byte_order=\"";
         text_ += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
         text_ += "\" header_type=\"UInt64\"";
         text_ += compress_ ? " compressor=\"vtkZLibDataCompressor\"" : "";
-        text_ += ">\n<UnstructuredGrid>\n";
+        text_ += std::string(">\n<") + type() + ">\n";
     }
 
     /// Strings as VTK keeps them: the codes of their bytes, each string ended by 0.
     void field_data() {
         text_ += "<FieldData>\n";
         for (const VtkStrings& strings : piece_.field_data) {
-            text_ += "<DataArray type=\"String\" Name=\"" + escaped(strings.name) + "\" NumberOfTuples=\"" +
+            text_ += "<DataArray type=\"String\" Name=\"" + vtk_escaped(strings.name) + "\" NumberOfTuples=\"" +
                      std::to_string(strings.values.size()) + "\" format=\"ascii\">\n";
             for (const std::string& value : strings.values) {
                 for (const char c : value) {
@@ -146,9 +163,9 @@ class Document {
     }
 
     void section(const char* name, const std::vector<VtkArray>& arrays, const std::string& scalars = {}) {
-        text_ += std::string("<") + name + (scalars.empty() ? "" : " Scalars=\"" + escaped(scalars) + "\"") + ">\n";
+        text_ += std::string("<") + name + (scalars.empty() ? "" : " Scalars=\"" + vtk_escaped(scalars) + "\"") + ">\n";
         for (const VtkArray& array : arrays) {
-            text_ += "<DataArray type=\"" + array.type + "\" Name=\"" + escaped(array.name) +
+            text_ += "<DataArray type=\"" + array.type + "\" Name=\"" + vtk_escaped(array.name) +
                      "\" NumberOfComponents=\"" + std::to_string(array.components) +
                      "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
             encoded_.push_back(encode(array.bytes, compress_));
@@ -170,7 +187,7 @@ class Document {
 
 }  // namespace
 
-void write_unstructured_grid(const VtkPiece& piece, bool compress, OutputFile& file, const Progress& progress) {
+void write_vtk(const VtkPiece& piece, bool compress, OutputFile& file, const Progress& progress) {
     Document(piece, compress, progress).write(file);
 }
 

@@ -31,6 +31,12 @@ struct VtkStrings {
 };
 
 struct VtkPiece {
+    enum class Kind : std::uint8_t {
+        cells,  ///< an unstructured grid; the topology is connectivity, offsets and types
+        lines,  ///< PolyData; connectivity and offsets
+        polys,
+    };
+    Kind kind = Kind::cells;
     std::size_t points = 0;
     std::size_t cells = 0;
     VtkArray coordinates;
@@ -57,7 +63,10 @@ VtkArray vtk_array(std::string name, const std::vector<T>& values, int component
     return {std::move(name), vtk_type<T>(), components, std::as_bytes(std::span(values))};
 }
 
+/// Text in an attribute.
+std::string vtk_escaped(std::string_view text);
+
 /// Compression works in parallel; the bytes do not depend on it.
-void write_unstructured_grid(const VtkPiece& piece, bool compress, OutputFile& file, const Progress& progress);
+void write_vtk(const VtkPiece& piece, bool compress, OutputFile& file, const Progress& progress);
 
 }  // namespace terratet

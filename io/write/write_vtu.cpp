@@ -155,6 +155,27 @@ std::vector<std::uint8_t> censoring_column(const Model& model, const std::vector
     return result;
 }
 
+/// Properties that are drawn in decades.
+std::vector<std::size_t> log10_properties(const Model& model) {
+    std::vector<std::size_t> found;
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (model.properties[p].scale == Scale::log10 && model.properties[p].kind == Kind::continuous) {
+            found.push_back(p);
+        }
+    }
+    return found;
+}
+
+/// Cells between a fault's sheets are thin on purpose: their quality would be all that a scale shows.
+void hide_gaps(const std::vector<std::int32_t>& fault, Contents& contents) {
+    for (std::size_t c = 0; c < fault.size(); ++c) {
+        if (fault[c] >= 0) {
+            contents.radius_edge[c] = contents.aspect[c] = contents.dihedral[c] =
+                std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+}
+
 const char* scale_name(const Property& property) {
     return property.kind == Kind::categorical ? "categorical" : property.scale == Scale::log10 ? "log10" : "linear";
 }
@@ -204,8 +225,14 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     for (const std::size_t p : censored) {
         names.push_back(model.properties[p].name + "_censored");
     }
+    const auto logarithmic = log10_properties(model);
+    for (const std::size_t p : logarithmic) {
+        names.push_back(model.properties[p].name + "_log10");
+    }
     names = distinct_names(std::move(names), own_arrays);
-    const std::vector<std::string> censored_names(names.begin() + std::ssize(model.properties), names.end());
+    const auto further = names.begin() + std::ssize(model.properties);
+    const std::vector<std::string> censored_names(further, further + std::ssize(censored));
+    const std::vector<std::string> log10_names(further + std::ssize(censored), names.end());
     names.resize(model.properties.size());
 
     VtkPiece piece;
@@ -223,6 +250,14 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     for (std::size_t p = 0; p < names.size(); ++p) {
         piece.point_data.push_back(vtk_array(names[p], contents.values[p]));
     }
+    std::vector<std::vector<double>> decades;
+    for (std::size_t i = 0; i < logarithmic.size(); ++i) {
+        decades.push_back(contents.values[logarithmic[i]]);
+        for (double& value : decades.back()) {
+            value = to_scale(model.properties[logarithmic[i]], value);
+        }
+        piece.point_data.push_back(vtk_array(log10_names[i], decades.back()));
+    }
     const auto role = column_of<std::uint8_t>(contents.vertices, &Vertex::role);
     const auto owner = column_of<std::int32_t>(contents.vertices, &Vertex::owner);
     const auto side = column_of<std::int8_t>(contents.vertices, &Vertex::side);
@@ -237,6 +272,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     piece.active_scalars = names.empty() ? "" : names[0];
 
     const auto fault = inherited<std::int32_t>(view.cells.barrier, contents.parent);
+    hide_gaps(fault, contents);
     const auto reason = inherited<std::uint8_t>(view.cells.reason, contents.parent);
     piece.cell_data = {vtk_array("MaterialIDs", contents.region),
                        vtk_array("fault", fault),
@@ -246,7 +282,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
                        vtk_array("dihedral", contents.dihedral),
                        vtk_array("reason", reason)};
     piece.field_data = field_data(model, view.cells, names);
-    write_unstructured_grid(piece, options.compress.value_or(true), file, options.progress);
+    write_vtk(piece, options.compress.value_or(true), file, options.progress);
     return {path, file.commit(), contents.shapes};
 }
 

@@ -54,7 +54,7 @@ std::vector<Writer> writers() {
     }();
     std::vector<Writer> all;
     for (const char* name : {"a.vtu", "plain.vtu", "a.glb", "a.gltf", "a.html", "a.png", "a.vdb", "a.tif", "a.nc",
-                             "a.blocks", "a.cog", "a.csv"}) {
+                             "a.blocks", "a.cog", "a.msh", "a.csv"}) {
         all.push_back({name, [name](const std::string& path) {
                            ExportOptions options;
                            options.overwrite = true;

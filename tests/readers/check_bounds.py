@@ -12,12 +12,12 @@ import json
 import struct
 
 import numpy
-import pyopenvdb
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from check_ground import ground_of, outer_facets
 from check_vtu import read, tetrahedra, volumes
+from vdb_grids import float_grids
 
 
 class Polygon:
@@ -125,8 +125,7 @@ def main():
                 result[path + " walls"] = walls
                 assert abs(walls / (polygon.perimeter * args.height) - 1) < max(0.001, args.strays), f"walls {walls}, not {polygon.perimeter * args.height}"
         elif path.endswith(".vdb"):
-            for name in [grid.name for grid in pyopenvdb.readAllGridMetadata(path)]:
-                grid = pyopenvdb.read(path, name)
+            for name, grid in float_grids(path).items():
                 indices = [item.min for item in grid.iterOnValues()]
                 places = numpy.array([grid.transform.indexToWorld(tuple(map(int, index))) for index in indices])
                 check(f"{path} {name}", places)

@@ -8,11 +8,11 @@ check_ground.py GROUND.asc MESH.vtu VOXELS.vdb [TOLERANCE]
 import sys
 
 import numpy
-import pyopenvdb
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from check_vtu import read, tetrahedra, volumes
+from vdb_grids import float_grids
 
 
 def ground_of(path):
@@ -69,8 +69,7 @@ def main():
     print(f"VTU: {over:.3f} above; its upper side is the ground over {100 * share:.1f} % of the box")
     assert share > (0.995 if inside.all() else 0.5), "the mesh does not end at the ground"
 
-    for voxels in pyopenvdb.readAllGridMetadata(sys.argv[3]):
-        voxels = pyopenvdb.read(sys.argv[3], voxels.name)
+    for voxels in float_grids(sys.argv[3]).values():
         indices = numpy.array([item.min for item in voxels.iterOnValues()])
         places = numpy.array([voxels.transform.indexToWorld(tuple(int(k) for k in index)) for index in indices])
         over = (places[:, 2] - height(places)).max()

@@ -48,6 +48,10 @@ int main(int argc, char** argv) {
     options.margin = false;
     options.compress = false;
     export_model(view, folder + "clipped.vtu", options);
+    export_model(view, folder + "site.vtm", options);
+    export_model(view, folder + "mesh41.msh", options);
+    options.msh_version_2 = true;
+    export_model(view, folder + "mesh22.msh", options);
     options.color_property = "lithology";
     export_model(view, folder + "classes.glb", options);
 

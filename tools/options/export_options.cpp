@@ -124,11 +124,12 @@ OutputRequest parse_output(const std::string& text) {
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {
-        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vdb, .tif, .nc, .csv)",
+        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv)",
          {
              {{"of"},
               "FORMAT",
-              "instead of the extension's: HTML, PNG, GLTF, VTU, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS; with it the "
+              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS; with "
+              "it the "
               "output may be "
               "-, standard output; of one output among several: OUTPUT,of=FORMAT",
               &a.format},
@@ -187,7 +188,7 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
              {{"co"},
               "KEY=VALUE",
               "the same as creation options: -co COMPRESS=NO; ALIGN=NO centres voxels on the extent, FIELDS=ALL gives "
-              "GeoTIFF bands of extrapolation and region",
+              "GeoTIFF bands of extrapolation and region, VERSION=2.2 the older format of Gmsh",
               &a.creation_options},
          }}};
 }
@@ -209,6 +210,8 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.margin = as_flag(key, value);
         } else if (key == "HALF") {
             a.half = as_flag(key, value);
+        } else if (key == "VERSION") {
+            a.msh_version_2 = choose<bool>("-co VERSION", value, {{"4.1", false}, {"2.2", true}});
         } else if (key == "ALIGN") {
             a.centred = !as_flag(key, value);
         } else if (key == "FIELDS") {
@@ -230,7 +233,7 @@ ExportArguments with_creation_options(ExportArguments a) {
         } else {
             throw UsageError(fmt::format(
                 "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
-                "LOCAL_ORIGIN, MARGIN, VOXEL_SIZE",
+                "LOCAL_ORIGIN, MARGIN, VERSION, VOXEL_SIZE",
                 key));
         }
     }
@@ -260,6 +263,7 @@ ExportOptions writer_options(const ExportArguments& arguments, const Model& mode
     options.voxel_values = voxel_values(a);
     options.allow_large = a.allow_large;
     options.half = a.half;
+    options.msh_version_2 = a.msh_version_2;
     options.aligned = !a.centred;
     options.all_fields = a.all_fields;
     options.local_origin = a.local_origin;

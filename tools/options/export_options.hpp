@@ -23,8 +23,9 @@ struct ExportArguments {
     bool allow_large = false;
     bool dry_run = false;
     bool half = false;
-    bool centred = false;     ///< -co ALIGN=NO
-    bool all_fields = false;  ///< -co FIELDS=ALL
+    bool msh_version_2 = false;  ///< -co VERSION=2.2
+    bool centred = false;        ///< -co ALIGN=NO
+    bool all_fields = false;     ///< -co FIELDS=ALL
     bool local_origin = false;
     bool uncertainty = false;
     std::string fault_gap = "keep";

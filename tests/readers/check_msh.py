@@ -9,6 +9,7 @@ check_msh.py CLIPPED.vtu FILE.msh...
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import numpy
 from vtk.util.numpy_support import vtk_to_numpy
@@ -96,8 +97,9 @@ def main():
         faults = [name for (dimension, _), name in names.items() if dimension == 2 and name not in areas]
         assert faults == [name.replace('"', "'") for name in strings(grid, "Faults")], f"{path}: faults {faults}"
         if shutil.which("gmsh"):
-            done = subprocess.run(["gmsh", path, "-0", "-o", "/dev/null", "-format", "msh2", "-v", "3"],
-                                  capture_output=True, text=True)
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run(["gmsh", path, "-0", "-o", folder + "/again.msh", "-format", "msh41", "-v", "4"],
+                                      capture_output=True, text=True)
             said = done.stdout + done.stderr
             assert done.returncode == 0 and "Error" not in said, f"{path}: Gmsh says {said}"
             assert f"{len(nodes)} nodes" in said, said

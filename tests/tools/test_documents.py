@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from terratet import PROGRAM, ROOT, Case
+from terratet import PROGRAM, ROOT, Case, twin_inputs
 
 DOCS = ROOT / "docs"
 
@@ -44,6 +44,19 @@ class Documents(Case):
             script = re.sub(r"^\$ ", "", block, flags=re.M)
             result = subprocess.run(["bash", "-euc", script], cwd=self.folder, env=environment, capture_output=True, text=True)
             self.assertEqual(result.returncode, 0, script + result.stderr)
+
+    def test_what_the_page_of_outputs_says_to_type_runs(self):
+        self.succeed("build", *twin_inputs(), "-o", "site.gpkg")
+        environment = {**os.environ, "PATH": f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"}
+        rows = re.findall(r"^\| [^|]+ \| `(terratet [^`]+)` \|$", (DOCS / "outputs.md").read_text(), re.M)
+        self.assertGreater(len(rows), 12)
+        for row in rows:
+            result = subprocess.run(["bash", "-euc", row + " --overwrite"], cwd=self.folder, env=environment,
+                                    capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, row + result.stderr)
+            if "--dry-run" not in row:
+                for name in row.split("site.gpkg ")[1].split():
+                    self.assertGreater((self.folder / name.split(",of=")[0]).stat().st_size, 0, row)
 
     def test_the_readmes_program_is_the_one_that_the_install_test_builds(self):
         program = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(), re.S)[1]

@@ -30,7 +30,7 @@ std::vector<SurveyStation> random_survey(testing::Random& random) {
 
 TEST_CASE("minimum curvature reproduces the drilling textbook's example") {
     // I 15° → 25°, Az 20° → 45° over 100 ft: N 27.22, E 19.45, TVD 94.01.
-    const Trajectory hole({}, {{0, 20, 15}, {100, 45, 25}});
+    const Trajectory hole(Vec3{}, {{0, 20, 15}, {100, 45, 25}});
     const Vec3 end = hole.position(100);
     CHECK(end.y == Approx(27.22).margin(0.005).epsilon(0));
     CHECK(end.x == Approx(19.45).margin(0.005).epsilon(0));
@@ -44,21 +44,21 @@ TEST_CASE("a hole without survey is vertical") {
 }
 
 TEST_CASE("the first direction holds up to the collar and the last one below the survey") {
-    const Trajectory hole({}, {{50, 90, 90}, {20, 90, 90}});
+    const Trajectory hole(Vec3{}, {{50, 90, 90}, {20, 90, 90}});
     CHECK(near(hole.position(10), {10, 0, 0}, 1e-12));
     CHECK(near(hole.position(80), {80, 0, 0}, 1e-12));
     CHECK(hole.stations().front() == SurveyStation{0, 90, 90});
 }
 
 TEST_CASE("of stations at equal depth the first counts, in whatever order the depths come") {
-    const Trajectory hole({}, {{30, 0, 0}, {0, 90, 90}, {0, 270, 90}});
+    const Trajectory hole(Vec3{}, {{30, 0, 0}, {0, 90, 90}, {0, 270, 90}});
     CHECK(near(hole.position(1e-6), {1e-6, 0, 0}, 1e-12));
 }
 
 TEST_CASE("a quarter circle is followed along its arc") {
     // From straight down to due east over 100: radius 200/π.
     const double radius = 200 / std::acos(-1.0);
-    const Trajectory hole({}, {{0, 90, 0}, {100, 90, 90}});
+    const Trajectory hole(Vec3{}, {{0, 90, 0}, {100, 90, 90}});
     for (const double depth : {0.0, 25.0, 50.0, 99.0, 100.0}) {
         const double angle = depth / radius;
         CHECK(near(hole.position(depth), {radius * (1 - std::cos(angle)), 0, -radius * std::sin(angle)}, 1e-10));
@@ -67,10 +67,10 @@ TEST_CASE("a quarter circle is followed along its arc") {
 
 TEST_CASE("tangential keeps the upper direction, balanced tangential changes half way") {
     const std::vector<SurveyStation> survey{{0, 90, 0}, {100, 90, 90}, {200, 90, 90}};
-    const Trajectory tangential({}, survey, Desurvey::tangential);
+    const Trajectory tangential(Vec3{}, survey, Desurvey::tangential);
     CHECK(near(tangential.position(100), {0, 0, -100}, 1e-12));
     CHECK(near(tangential.position(150), {50, 0, -100}, 1e-12));
-    const Trajectory balanced({}, survey, Desurvey::balanced_tangential);
+    const Trajectory balanced(Vec3{}, survey, Desurvey::balanced_tangential);
     CHECK(near(balanced.position(40), {0, 0, -40}, 1e-12));
     CHECK(near(balanced.position(100), {50, 0, -50}, 1e-12));
 }
@@ -100,7 +100,7 @@ TEST_CASE("position is continuous at stations for every method") {
     testing::Random random(7);
     for (const Desurvey method : {Desurvey::minimum_curvature, Desurvey::tangential, Desurvey::balanced_tangential}) {
         for (int trial = 0; trial < 100; ++trial) {
-            const Trajectory hole({}, random_survey(random), method);
+            const Trajectory hole(Vec3{}, random_survey(random), method);
             for (const SurveyStation& station : hole.stations()) {
                 CHECK(near(hole.position(station.depth - 1e-9), hole.position(station.depth + 1e-9), 1e-8));
             }
@@ -109,17 +109,17 @@ TEST_CASE("position is continuous at stations for every method") {
 }
 
 TEST_CASE("opposite directions still give a path that is finite and as long as measured") {
-    const Trajectory hole({}, {{0, 0, 0}, {10, 0, 180}});
+    const Trajectory hole(Vec3{}, {{0, 0, 0}, {10, 0, 180}});
     CHECK(near(hole.position(10), {0, 0, 0}, 1e-12));
     CHECK(near(hole.position(5), {0, 0, -5}, 1e-12));
-    CHECK(is_finite(Trajectory({}, {{0, 0, 0}, {10, 0, 179.99999}}).position(3)));
+    CHECK(is_finite(Trajectory(Vec3{}, {{0, 0, 0}, {10, 0, 179.99999}}).position(3)));
 }
 
 TEST_CASE("the polyline of a hole stays on its path and turns by no more than asked") {
     testing::Random random(11);
     for (int trial = 0; trial < 50; ++trial) {
         const std::vector<SurveyStation> survey = random_survey(random);
-        const Trajectory hole({}, survey);
+        const Trajectory hole(Vec3{}, survey);
         const double deepest = survey.back().depth * random(0.2, 1.5) + 1;
         const std::vector<double> depths = hole.polyline_depths(deepest, 2);
         REQUIRE(depths.front() == 0);
@@ -131,7 +131,7 @@ TEST_CASE("the polyline of a hole stays on its path and turns by no more than as
             CHECK(chord >= (depths[i + 1] - depths[i]) * (1 - 6e-5) - 1e-12);
         }
     }
-    CHECK(Trajectory({}, {}).polyline_depths(0) == std::vector<double>{0});
-    CHECK(Trajectory({}, {{0, 0, 0}, {100, 90, 90}}, Desurvey::balanced_tangential).polyline_depths(200) ==
+    CHECK(Trajectory(Vec3{}, {}).polyline_depths(0) == std::vector<double>{0});
+    CHECK(Trajectory(Vec3{}, {{0, 0, 0}, {100, 90, 90}}, Desurvey::balanced_tangential).polyline_depths(200) ==
           std::vector<double>{0, 50, 100, 200});
 }

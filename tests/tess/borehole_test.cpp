@@ -38,7 +38,7 @@ TEST_CASE("minimum curvature reproduces the drilling textbook's example") {
 }
 
 TEST_CASE("a hole without survey is vertical") {
-    const Trajectory hole({10, 20, 30}, {});
+    const Trajectory hole(Vec3{10, 20, 30}, {});
     CHECK(hole.position(0) == Vec3{10, 20, 30});
     CHECK(hole.position(12.5) == Vec3{10, 20, 17.5});
 }

@@ -25,11 +25,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// As readers do.
+void snap(Surface& surface, const Frame& frame) {
+    for (Vec3& p : surface.vertices) {
+        p = frame.snapped(p);
+    }
+}
+
 /// Two holes at least, and faults if the seed's world has them.
 LiveModel small_live_model(std::uint64_t seed) {
     testing::World world = testing::random_world(seed);
     world.options.extent = {{0, 0, -200}, {300, 300, 0}};
     world.options.estimator = "nearest";
+    for (Surface& surface : world.site.surfaces) {
+        snap(surface, world.site.frame);
+    }
     return LiveModel(world.site, world.options);
 }
 
@@ -42,6 +52,7 @@ ModelPlan next_plan(const Model& model, std::uint64_t kind) {
             break;
         case 1:
             plan.site.surfaces.push_back(testing::planar_fault("new", {150, 150, -100}, 20, 60, 60, 50, 25));
+            snap(plan.site.surfaces.back(), model.frame);
             break;
         case 2: {
             std::vector<bool> marked(model.samples.size());

@@ -105,8 +105,15 @@ class Running(Case):
 
     def test_one_of_several_outputs_fails_and_those_written_are_named(self):
         self.write("s.csv", GRID)
-        result = self.run_terratet("convert", "--samples", "s.csv", "-s_srs", "EPSG:3067", "--lmin", "5",
-                                   "-tr", "0.0001", "good.csv", "huge.vdb")
+        import resource
+        import subprocess
+        from terratet import PROGRAM
+        arguments = [PROGRAM, "convert", "--samples", "s.csv", "-s_srs", "EPSG:3067", "--lmin", "5"]
+        subprocess.run([*arguments, "-q", "good.csv"], cwd=self.folder, check=True)
+        limit = (self.folder / "good.csv").stat().st_size + 1000  # a VTU without compression is larger
+        result = subprocess.run(
+            [*arguments, "--overwrite", "-co", "COMPRESS=NO", "good.csv", "huge.vtu"], cwd=self.folder, capture_output=True,
+            text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.assertNotEqual(result.returncode, 0)
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         self.assertIn("written before it: good.csv", result.stderr)

@@ -93,20 +93,19 @@ class Info final : public Command {
 }  // namespace
 
 CommandEntry info_command() {
-    return {
-        "info",
-        "what is in an input or a model",
-        "FILE[,layer=L] | --holes --boreholes FILE [--survey FILE] [--log FILE]",
-        "Says what a file is and holds: a model, a table and its layers, a well log (LAS, AGS, GEF, GOCAD, RMS), "
-        "surfaces, "
-        "or an output (glTF, VTK, OpenVDB, rasters): coordinates, columns and their ranges, what was guessed, defects "
-        "with "
-        "their reasons. With --holes, how good the boreholes are: overlaps, gaps, missing surveys, kinks, duplicates, "
-        "holes without logs, each counted and listed.",
-        {"terratet info site.gpkg", "terratet info well.las", "terratet info --json 'wells.gpkg,layer=collar'",
-         "terratet info --digest site.gpkg",
-         "terratet info --holes --boreholes collar.csv --survey survey.csv --log assay.csv -o worst.svg"},
-        [] { return std::make_unique<Info>(); }};
+    return {"info",
+            "what is in an input or a model",
+            "FILE | --holes --boreholes FILE [--survey FILE] [--log FILE]",
+            "Says what a file is and holds: a model, a table and its layers, a well log (LAS, AGS, GEF, GOCAD, RMS), "
+            "surfaces, or an output (glTF, VTK, OpenVDB, rasters): coordinates, columns and their ranges, what was "
+            "guessed, defects "
+            "with their reasons. With --holes, how good the boreholes are: overlaps, gaps, missing surveys, kinks, "
+            "duplicates, "
+            "holes without logs, each counted and listed.",
+            {"terratet info site.gpkg", "terratet info well.las", "terratet info --json 'wells.gpkg,layer=collar'",
+             "terratet info --digest site.gpkg",
+             "terratet info --holes --boreholes collar.csv --log assay.csv -o worst.svg"},
+            [] { return std::make_unique<Info>(); }};
 }
 
 }  // namespace terratet::tools

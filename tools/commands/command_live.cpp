@@ -102,11 +102,10 @@ CommandEntry live_command() {
         "MODEL.gpkg [--http PORT]",
         "Reads one JSON object a line from standard input and answers each by one on standard output, in order: "
         "{\"id\": 7, \"edit\": [\"move-borehole\", \"KR1\", \"--by\", \"5,0,0\"]}, or \"query\", \"section\", "
-        "\"export\" with "
-        "words as on the command line, \"script\" with a list of edits, \"subscribe\": true. Edits are stored as "
-        "'terratet "
-        "edit' stores them. With --http the same objects are posted to a URL that it prints.",
-        {"echo '{\"id\": 1, \"query\": [\"region\"]}' | terratet live site.gpkg", "terratet live site.gpkg --http 0"},
+        "\"export\" with words as on the command line, \"script\" with a list of edits, \"subscribe\": true. Edits are "
+        "stored as "
+        "'terratet edit' stores them. With --http the same objects are posted to a URL that it prints.",
+        {"terratet live site.gpkg --http 0", "echo '{\"id\": 1, \"query\": [\"region\"]}' | terratet live site.gpkg"},
         [] { return std::make_unique<Live>(); }};
 }
 

@@ -23,8 +23,9 @@ struct BuildOptions {
     Box3 extent;        ///< frame-local; empty: the samples' and boreholes' box, padded by `pad`
     double pad = -1;    ///< negative: l_max in plan, a quarter of the data's height (l_min to l_max) vertically
     Criteria criteria;  ///< l_min 0: the data's diagonal/100, those far off left out (site_box.hpp); l_max 0: 4 l_min
-    bool default_tolerance =
-        true;  ///< where neither l_min nor a tolerance nor a df_max is given, and canonical density
+    /// Chooses a tolerance for each property, where neither l_min nor a tolerance nor a df_max is given and density is
+    /// canonical.
+    bool default_tolerance = false;
     /// What noise the estimator leaves in a property's field once it is fitted, in the property's scale; infinity where
     /// its field is no matter of cells (nearest). Empty: none.
     std::function<double(const Property&)> estimator_noise;

@@ -27,7 +27,7 @@ class Whole(Case):
     def test_a_limit_on_the_size_of_files_is_an_error_like_any_other(self):
         before = self.listing()
         for output in ("o.vtu", "o.glb", "o.gltf", "o.vdb", "o.csv"):
-            result = self.limited(1000, "export", "m.gpkg", output)
+            result = self.limited(1000, "export", "m.gpkg", "-q", output)
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertIn("ulimit -f", result.stderr)
             self.assertEqual(result.stderr.count("\n"), 1)

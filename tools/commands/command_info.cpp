@@ -95,7 +95,7 @@ class Info final : public Command {
 CommandEntry info_command() {
     return {"info",
             "what is in an input or a model",
-            "FILE | --holes --boreholes FILE [--survey FILE] [--log FILE]",
+            "FILE | --holes --boreholes F [--survey F] [--log F]",
             "Says what a file is and holds: a model, a table and its layers, a well log (LAS, AGS, GEF, GOCAD, RMS), "
             "surfaces, or an output (glTF, VTK, OpenVDB, rasters): coordinates, columns and their ranges, what was "
             "guessed, defects "

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/base/gdal_dataset.hpp"
+#include "io/base/file_bytes.hpp"
 
 #include <ogrsf_frmts.h>
 
@@ -23,17 +24,6 @@ std::string plain_path(const std::string& path) {
 
 bool is_stream(const std::string& path) {
     return path.starts_with("/vsistdin/");
-}
-
-std::string first_bytes(const std::string& path) {
-    VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
-    if (file == nullptr) {
-        return {};
-    }
-    std::string bytes(4096, '\0');
-    bytes.resize(VSIFReadL(bytes.data(), 1, bytes.size(), file));
-    VSIFCloseL(file);
-    return bytes;
 }
 
 enum class Content { text, utf16, binary };
@@ -122,7 +112,7 @@ std::string checked_head(const Source& source) {
     if (!is_stream(path)) {
         require_file(source, path);
     }
-    std::string head = first_bytes(path);
+    std::string head = file_bytes(path, 0, 4096);
     if (is_csv_name(path) && classify(head) != Content::text) {
         throw InputError(source.describe() + (classify(head) == Content::utf16
                                                   ? ": is UTF-16 text; save it as UTF-8"

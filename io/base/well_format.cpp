@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/base/well_format.hpp"
+#include "io/base/file_bytes.hpp"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
@@ -18,22 +19,6 @@
 namespace terratet {
 
 namespace {
-
-std::string first_bytes(const std::string& path) {
-    const GdalScope quiet(path);
-    VSIStatBufL status;
-    if (VSIStatL(path.c_str(), &status) != 0 || VSI_ISDIR(status.st_mode)) {
-        return {};
-    }
-    VSILFILE* const file = VSIFOpenL(path.c_str(), "rb");
-    if (file == nullptr) {
-        return {};
-    }
-    std::string bytes(2048, '\0');
-    bytes.resize(VSIFReadL(bytes.data(), 1, bytes.size(), file));
-    VSIFCloseL(file);
-    return bytes;
-}
 
 /// What looks like a log and is none that is read here: said with what to do.
 void refuse_strangers(const std::string& path, const std::string& head) {
@@ -134,7 +119,7 @@ WellFormat well_format(const std::string& path) {
     if (is_connection(path) || is_stream(path)) {
         return WellFormat::none;
     }
-    const std::string head = first_bytes(path);
+    const std::string head = file_bytes(path, 0, 2048);
     if (head.empty()) {
         return WellFormat::none;
     }

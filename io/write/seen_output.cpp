@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/crs.hpp"
+#include "io/base/file_bytes.hpp"
 #include "io/base/gdal_drivers.hpp"
 #include "io/base/gdal_scope.hpp"
 #include "io/source.hpp"
@@ -26,25 +27,6 @@ using Json = nlohmann::json;
 
 constexpr std::size_t head_size = 1 << 16;
 constexpr std::size_t largest_json = 256U << 20U;
-
-/// Bytes from `offset` on; fewer where the file ends.
-std::string bytes_of(const std::string& path, std::size_t offset, std::size_t count) {
-    const GdalScope quiet(path);
-    VSIStatBufL status;
-    if (VSIStatL(path.c_str(), &status) != 0 || VSI_ISDIR(status.st_mode)) {
-        return {};
-    }
-    VSILFILE* const file = VSIFOpenL(path.c_str(), "rb");
-    if (file == nullptr) {
-        return {};
-    }
-    const auto size = static_cast<std::size_t>(std::max<vsi_l_offset>(status.st_size, 0));
-    std::string bytes(std::min(count, size > offset ? size - offset : 0), '\0');
-    VSIFSeekL(file, offset, SEEK_SET);
-    bytes.resize(VSIFReadL(bytes.data(), 1, bytes.size(), file));
-    VSIFCloseL(file);
-    return bytes;
-}
 
 std::uint32_t word_at(const std::string& bytes, std::size_t at) {
     std::uint32_t word = 0;
@@ -142,7 +124,7 @@ SeenOutput see_glb(const std::string& path, const std::string& head) {
         throw InputError(path + ": a GLB file cut short");
     }
     const std::size_t length = word_at(head, 12);
-    const std::string text = length <= largest_json ? bytes_of(path, 20, length) : "";
+    const std::string text = length <= largest_json ? file_bytes(path, 20, length) : "";
     if (text.size() != length) {
         throw InputError(path + ": a GLB file cut short: its JSON is not whole");
     }
@@ -272,7 +254,7 @@ std::optional<SeenOutput> see_output(const std::string& path) {
     if (is_connection(path) || path.find("/vsistdin/") != std::string::npos) {
         return std::nullopt;
     }
-    const std::string head = bytes_of(path, 0, head_size);
+    const std::string head = file_bytes(path, 0, head_size);
     const std::string_view start = std::string_view(head).substr(0, std::min<std::size_t>(head.size(), 2000));
     const auto plain = [](const char* format) { return SeenOutput{format, "", {}, {}, {}}; };
     if (head.starts_with("glTF")) {
@@ -318,7 +300,7 @@ std::optional<SeenOutput> see_output(const std::string& path) {
     }
     const std::size_t first = start.find_first_not_of(" \t\r\n");
     if (first != std::string_view::npos && start[first] == '{' && head.find("\"asset\"") != std::string::npos) {
-        const std::string text = bytes_of(path, 0, largest_json);
+        const std::string text = file_bytes(path, 0, largest_json);
         const Json document = Json::parse(text, nullptr, false);
         if (document.is_object() && document.contains("geometricError")) {
             SeenOutput seen = plain("3D Tiles tileset");

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 
+#include "io/write/markup.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -18,34 +19,6 @@ namespace {
 constexpr std::size_t block_size = 1 << 16;
 
 using Bytes = std::vector<std::byte>;
-
-}  // namespace
-
-std::string vtk_escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                // A control character is not allowed in XML at all.
-                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
-}
-
-namespace {
 
 /// What stands in the file for one array: its length, or its block table, then its bytes.
 struct Encoded {
@@ -149,7 +122,7 @@ class Document {
     void field_data() {
         text_ += "<FieldData>\n";
         for (const VtkStrings& strings : piece_.field_data) {
-            text_ += "<DataArray type=\"String\" Name=\"" + vtk_escaped(strings.name) + "\" NumberOfTuples=\"" +
+            text_ += "<DataArray type=\"String\" Name=\"" + markup_text(strings.name) + "\" NumberOfTuples=\"" +
                      std::to_string(strings.values.size()) + "\" format=\"ascii\">\n";
             for (const std::string& value : strings.values) {
                 for (const char c : value) {
@@ -163,9 +136,9 @@ class Document {
     }
 
     void section(const char* name, const std::vector<VtkArray>& arrays, const std::string& scalars = {}) {
-        text_ += std::string("<") + name + (scalars.empty() ? "" : " Scalars=\"" + vtk_escaped(scalars) + "\"") + ">\n";
+        text_ += std::string("<") + name + (scalars.empty() ? "" : " Scalars=\"" + markup_text(scalars) + "\"") + ">\n";
         for (const VtkArray& array : arrays) {
-            text_ += "<DataArray type=\"" + array.type + "\" Name=\"" + vtk_escaped(array.name) +
+            text_ += "<DataArray type=\"" + array.type + "\" Name=\"" + markup_text(array.name) +
                      "\" NumberOfComponents=\"" + std::to_string(array.components) +
                      "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
             encoded_.push_back(encode(array.bytes, compress_));

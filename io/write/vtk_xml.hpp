@@ -63,9 +63,6 @@ VtkArray vtk_array(std::string name, const std::vector<T>& values, int component
     return {std::move(name), vtk_type<T>(), components, std::as_bytes(std::span(values))};
 }
 
-/// Text in an attribute.
-std::string vtk_escaped(std::string_view text);
-
 /// Compression works in parallel; the bytes do not depend on it.
 void write_vtk(const VtkPiece& piece, bool compress, OutputFile& file, const Progress& progress);
 

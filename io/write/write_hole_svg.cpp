@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/base/output_file.hpp"
+#include "io/write/markup.hpp"
 
 namespace terratet {
 
@@ -20,29 +21,6 @@ constexpr double column_width = 60;
 constexpr double column_gap = 24;
 constexpr std::size_t most_rows = 40;
 constexpr std::size_t most_intervals = 5000;
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 /// Of a path the name alone.
 std::string short_name(const std::string& file) {
@@ -93,7 +71,7 @@ class Drawing {
                    "{0:.0f} "
                    "{1:.0f}\" font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" "
                    "fill=\"white\"/>\n<text x=\"{2}\" y=\"24\" font-size=\"16\">{3}: {4} findings</text>\n",
-                   width, bottom, left, escaped(hole_.id), hole_.findings) +
+                   width, bottom, left, markup_text(hole_.id), hole_.findings) +
                body_ + "</svg>\n";
     }
 
@@ -111,8 +89,8 @@ class Drawing {
     }
 
     void label(double x, double at, const std::string& text, const char* anchor = "start") {
-        body_ +=
-            fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, at, anchor, escaped(text));
+        body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, at, anchor,
+                             markup_text(text));
     }
 
     void axis() {

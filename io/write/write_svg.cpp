@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "io/base/output_file.hpp"
+#include "io/write/markup.hpp"
 
 namespace terratet {
 namespace {
@@ -24,26 +25,6 @@ constexpr std::size_t dots_max = 3000;
 constexpr std::size_t columns = 3;
 // Told apart with any colour vision (Okabe and Ito).
 constexpr std::array colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 struct Range {
     double lo = std::numeric_limits<double>::infinity();
@@ -129,7 +110,7 @@ class Panel {
 
     static std::string label(double x, double y, const char* anchor, const std::string& text, const char* extra = "") {
         return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, extra,
-                           escaped(text));
+                           markup_text(text));
     }
 
     [[nodiscard]] std::string axes() const {

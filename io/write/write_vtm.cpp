@@ -10,6 +10,7 @@
 #include "io/base/output_file.hpp"
 #include "io/export.hpp"
 #include "io/read/column_names.hpp"
+#include "io/write/markup.hpp"
 #include "io/write/vtk_xml.hpp"
 
 namespace terratet {
@@ -145,7 +146,7 @@ OutputRecord write_vtm(const ModelView& view, const std::string& path, const Exp
     for (const char* piece : {"mesh.vtu", "boreholes.vtp", "barriers.vtp"}) {
         const fs::path name(piece);
         text += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + name.stem().string() + "\" file=\"" +
-                vtk_escaped((folder.filename() / name).string()) + "\"/>\n";
+                markup_text((folder.filename() / name).string()) + "\"/>\n";
     }
     file.write(text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
     record.path = path;

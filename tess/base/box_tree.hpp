@@ -72,10 +72,10 @@ class BoxTree {
         return false;
     }
 
-    /// Calls visit(item) at the leaves whose boxes are no farther from p than `least`, a squared distance that visit
-    /// may lessen, nearer ones first.
-    template <class Visit>
-    void near_first(const Vec3& p, const double& least, const Visit& visit) const {
+    /// Calls visit(item) at the leaves that are wanted, as are all nodes above them, nearer ones to p first. `wanted`
+    /// is asked with the node and the squared distance to its box, when its turn comes: what visit finds may narrow it.
+    template <class Wanted, class Visit>
+    void near_first(const Vec3& p, const Wanted& wanted, const Visit& visit) const {
         struct Waiting {
             std::uint32_t node = 0;
             double squared_distance = 0;
@@ -88,10 +88,10 @@ class BoxTree {
         }
         while (count > 0) {
             const auto [at, away] = waiting[--count];
-            if (away > least) {
+            const Node& node = nodes_[at];
+            if (!wanted(node, away)) {
                 continue;
             }
-            const Node& node = nodes_[at];
             if (node.right == 0) {
                 std::for_each(items_.begin() + node.begin, items_.begin() + node.end, visit);
                 continue;

@@ -26,7 +26,8 @@ SeedTree::SeedTree(std::span<const Vec3> points)
 std::uint32_t SeedTree::nearest(const Vec3& p, double radius) const {
     std::uint32_t best = none;
     double least = radius * radius;
-    tree_.near_first(p, least, [&](std::uint32_t i) {
+    const auto wanted = [&](const auto&, double away) { return away <= least; };
+    tree_.near_first(p, wanted, [&](std::uint32_t i) {
         const double d = squared_distance(points_[i], p);
         if (d < least || (d == least && best != none && i < best)) {
             least = d;

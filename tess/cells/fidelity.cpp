@@ -97,7 +97,8 @@ class Tally {
         if (done.count > 0) {
             done.rms = std::sqrt(squares_ / static_cast<double>(done.count));
             done.sd = std::sqrt(deviations_ / static_cast<double>(done.count));
-            done.r2 = deviations_ > 0 ? 1 - squares_ / deviations_ : squares_ > 0 ? 0 : 1;
+            const double rounding = static_cast<double>(done.count) * std::pow(1e-12 * mean_, 2);
+            done.r2 = deviations_ > rounding ? 1 - squares_ / deviations_ : squares_ > rounding ? 0 : 1;
         }
         return done;
     }

@@ -106,7 +106,7 @@ void note_lost_field(const Model& model, BuildReport& report) {
             continue;
         }
         std::ostringstream note;
-        note.precision(2);
+        note.precision(4);
         note << property.name << ": the tessellation's field explains "
              << (fit.r2 > 0 ? std::to_string(std::lround(100 * fit.r2)) + " % of" : "nothing of")
              << " the samples' variance (R2 " << fit.r2 << "): " << report.density.deleted << " samples left out by "

@@ -5,9 +5,11 @@
 /// A length at every place, from lengths wanted at some: the least of length + 0.4 · distance. So it changes by 0.4 a
 /// unit of length at most, and cells grow away from where they have to be small.
 
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "tess/base/box_tree.hpp"
 #include "tess/criteria.hpp"
 
 namespace terratet {
@@ -19,29 +21,21 @@ class GradedSizes {
     /// O(n log n). The places are copied.
     explicit GradedSizes(std::span<const FinePlace> places = {});
 
-    [[nodiscard]] bool empty() const { return places_.empty(); }
+    [[nodiscard]] bool empty() const { return tree_.items().empty(); }
 
     /// The length at p, or `limit` where that is less. Logarithmic. Safe from many threads.
     [[nodiscard]] double at(const Vec3& p, double limit) const;
 
-    [[nodiscard]] double smallest() const;  ///< infinity without places
+    [[nodiscard]] double smallest() const;  ///< infinity without places; linear
 
     /// At most so many vertices more than a length `limit` everywhere allows: ∫ 4/length³ round each place.
     [[nodiscard]] double packing_bound(double limit) const;
 
   private:
-    struct Node {
-        Box3 box;
-        double least = 0;
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint32_t right = 0;  ///< the second child; the first follows at once; 0: a leaf
+    struct Least {
+        double l_min = std::numeric_limits<double>::infinity();
     };
-    void split(std::uint32_t begin, std::uint32_t end);
-    void descend(std::uint32_t node, const Vec3& p, double& least) const;
-
-    std::vector<FinePlace> places_;
-    std::vector<Node> nodes_;
+    BoxTree<FinePlace, Least> tree_;
 };
 
 /// Without those that others' growth implies.

@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "tess/base/box_tree.hpp"
 #include "tess/mesh/quality.hpp"
 
 namespace terratet {
@@ -17,7 +19,7 @@ std::array<double, 4> weights_at(const CellPoints& cell, const Vec3& place);
 
 class SamplesInCell {
   public:
-    explicit SamplesInCell(std::vector<Vec3> places);
+    explicit SamplesInCell(std::span<const Vec3> places);
 
     struct Inside {
         std::uint32_t sample;
@@ -27,19 +29,11 @@ class SamplesInCell {
     void find(const CellPoints& cell, std::vector<Inside>& found) const;
 
   private:
-    struct Node {
-        Box3 box;
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint32_t right = 0;  ///< the second child; the first follows at once; 0: a leaf
+    struct Place {
+        Vec3 position;
+        std::uint32_t sample = 0;
     };
-    struct Planes;
-    void split(std::uint32_t begin, std::uint32_t end);
-    void descend(std::uint32_t node, const CellPoints& cell, const Planes& planes, std::vector<Inside>& found) const;
-
-    std::vector<Vec3> places_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    BoxTree<Place> tree_;
 };
 
 }  // namespace terratet

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interp/live_model.hpp"
 #include "interp/voxels/resample.hpp"
 #include "tess/cells.hpp"
 #include "tess/fidelity.hpp"
@@ -114,5 +115,28 @@ TEST_CASE("In gaps of faults and of horizons, hard or soft, fidelity takes the v
         INFO(model.properties[property].name);
         CHECK(found[property].count == valued[property]);
         CHECK(found[property].max < 1e-6);
+    }
+}
+
+TEST_CASE("A field of one value is met whatever rounding leaves of it, and nothing is said of what it would lose") {
+    testing::Random random(15);
+    Site site;
+    site.properties = {parse_property("v")};
+    site.samples.values.resize(1);
+    for (int i = 0; i < 60; ++i) {
+        site.samples.positions.push_back(random.in({{0, 0, -300}, {1000, 1000, 0}}));
+        site.samples.borehole.push_back(-1);
+        site.samples.depth.push_back(0);
+        site.samples.length.push_back(0);
+        site.samples.values[0].push_back(4.9);
+    }
+    BuildOptions options;
+    options.criteria.l_min = 200;
+    BuildReport report;
+    const LiveModel model(site, options, report);
+    REQUIRE(report.density.deleted > 0);
+    CHECK(report.fidelity[0].r2 == 1);
+    for (const std::string& note : report.diagnostics.notes) {
+        CHECK(note.find("explains") == std::string::npos);
     }
 }

@@ -201,7 +201,7 @@ TEST_CASE("Of many samples some five thousand are judged, as many of each boreho
             of_hole[i / 80] += some.contains(i) ? 1 : 0;
         }
         const auto [least, most] = std::minmax_element(of_hole.begin(), of_hole.end());
-        CHECK(*most - *least <= 4);  // drawn at random, 16 of 8 on average
+        CHECK(*most - *least <= 4);  // drawn by lot it would be some 16
     }
 }
 

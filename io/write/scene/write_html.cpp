@@ -12,6 +12,7 @@
 
 #include "io/base/output_file.hpp"
 #include "io/export.hpp"
+#include "io/write/markup.hpp"
 #include "io/write/scene/gltf_document.hpp"
 #include "io/write/scene/picture.hpp"
 #include "io/write/scene/scene_page.hpp"
@@ -22,29 +23,6 @@ namespace terratet {
 namespace {
 
 using Json = GltfBuffers::Json;
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 /// As a script's text: no end tag can be in it.
 std::string script_json(const Json& json) {
@@ -233,7 +211,7 @@ Json info_of(const Scene& scene, const Model& model, const ExportOptions& option
 std::string legend_text(const Scene& scene) {
     const Coloring& coloring = scene.coloring;
     std::string items;
-    const auto add = [&](const std::string& text) { items += "<li>" + escaped(text) + "</li>"; };
+    const auto add = [&](const std::string& text) { items += "<li>" + markup_text(text) + "</li>"; };
     if (!coloring.has_property()) {
         std::ranges::for_each(scene.cells.region_names, add);
         return "<h2>fault blocks</h2><ol>" + items + "</ol>";
@@ -244,7 +222,7 @@ std::string legend_text(const Scene& scene) {
         const std::vector<LegendTick> ticks = legend_ticks(coloring.property(), coloring.range());
         std::for_each(ticks.rbegin(), ticks.rend(), [&](const LegendTick& tick) { add(tick.label); });
     }
-    return "<h2>" + escaped(property_title(coloring.property())) + "</h2><ol>" + items + "</ol>";
+    return "<h2>" + markup_text(property_title(coloring.property())) + "</h2><ol>" + items + "</ol>";
 }
 
 std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& fields) {
@@ -279,22 +257,23 @@ OutputRecord write_html(const ModelView& view, const std::string& path, const Ex
     report_progress(options.progress, "write html", 0.5);
     std::string holes;
     for (const Borehole& hole : view.model.boreholes) {
-        holes += "<li>" + escaped(hole.id) + "</li>";
+        holes += "<li>" + markup_text(hole.id) + "</li>";
     }
     std::string said = honesty(scene, view);
     if (!options.made_by.empty()) {
         said += " · " + options.made_by;
     }
     const std::string glb = to_glb(gltf_document(scene, view.model, true, true));
-    file.write(filled(scene_page(), {{"TITLE", escaped(own.title)},
-                                     {"CRS", escaped(crs_title(view.model.frame) + ", unit " + view.model.frame.unit)},
-                                     {"LEGEND", legend_text(scene)},
-                                     {"HONESTY", escaped(said)},
-                                     {"HOLE_COUNT", std::to_string(view.model.boreholes.size()) + " boreholes"},
-                                     {"HOLES", holes},
-                                     {"PICTURE", "data:image/png;base64," + base64(picture_png(scene, view, own))},
-                                     {"INFO", script_json(info_of(scene, view.model, own))},
-                                     {"DATA", base64(gzipped(glb))}}));
+    file.write(
+        filled(scene_page(), {{"TITLE", markup_text(own.title)},
+                              {"CRS", markup_text(crs_title(view.model.frame) + ", unit " + view.model.frame.unit)},
+                              {"LEGEND", legend_text(scene)},
+                              {"HONESTY", markup_text(said)},
+                              {"HOLE_COUNT", std::to_string(view.model.boreholes.size()) + " boreholes"},
+                              {"HOLES", holes},
+                              {"PICTURE", "data:image/png;base64," + base64(picture_png(scene, view, own))},
+                              {"INFO", script_json(info_of(scene, view.model, own))},
+                              {"DATA", base64(gzipped(glb))}}));
     report_progress(options.progress, "write html", 1);
     return {path, file.commit()};
 }

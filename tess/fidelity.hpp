@@ -32,7 +32,7 @@ struct Fidelity {
     double max = 0;
     std::size_t count = 0;
     double sd = 0;         ///< of the samples counted
-    double r2 = 1;         ///< share of variance explained: 1 − rms²/sd²; 1 where all are alike and met, but for rounding
+    double r2 = 1;         ///< variance explained: 1 − rms²/sd²; 1 where all are alike and met, but for rounding
     double tolerance = 0;  ///< 0: none
     std::size_t beyond_tolerance = 0;
     std::map<MissReason, std::size_t> reasons;  ///< of those beyond the tolerance

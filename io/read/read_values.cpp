@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "io/base/lower_case.hpp"
@@ -108,9 +109,42 @@ struct Choice {
     std::size_t column;
 };
 
+/// May a column of words be classes: words that come again, not all the same?
+bool may_be_classes(const auto& column) {
+    std::set<std::string_view> words;
+    std::size_t filled = 0;
+    for (const std::string_view text : column) {
+        if (!is_null_word(text)) {
+            words.insert(text);
+            ++filled;
+        }
+    }
+    return words.size() > 1 && 2 * words.size() <= filled;
+}
+
+/// Says once which columns of words could have been classes.
+void note_classes(const Table& table, const std::vector<std::size_t>& columns, Diagnostics& diagnostics) {
+    if (columns.empty()) {
+        return;
+    }
+    constexpr std::size_t most = 5;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) {
+        names += (i == 0 ? "" : ", ") + table.columns[columns[i]];
+    }
+    if (columns.size() > most) {
+        names += fmt::format(" and {} more", columns.size() - most);
+    }
+    diagnostics.note(fmt::format("{}: {} {} words and {} left out; `properties` {}:categorical takes {} as classes",
+                                 table.file, names, columns.size() == 1 ? "holds" : "hold",
+                                 columns.size() == 1 ? "is" : "are", table.columns[columns.front()],
+                                 columns.size() == 1 ? "it" : "the first"));
+}
+
 std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names, Diagnostics& diagnostics) {
     const std::vector<bool> known = columns_with_meaning(table, names);
     std::vector<Choice> result;
+    std::vector<std::size_t> classes;
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
         if (known[column]) {
             continue;
@@ -122,6 +156,9 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         const bool repeated = std::ranges::any_of(
             result, [&](const Choice& choice) { return lower_case(choice.property.name) == lower_case(name); });
         if (numbers == 0) {
+            if (may_be_classes(table.cells[column])) {
+                classes.push_back(column);
+            }
             continue;
         }
         if (is_record_number(name, table.cells[column])) {
@@ -145,6 +182,7 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         }
         result.push_back({Property{name, unit_of(table, column), Scale::linear, Kind::continuous, {}}, column});
     }
+    note_classes(table, classes, diagnostics);
     return result;
 }
 

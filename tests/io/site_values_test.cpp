@@ -83,6 +83,17 @@ TEST_CASE("a column of words with a few numbers is no property unless asked for,
     CHECK(asked.counts.samples == 1);
 }
 
+TEST_CASE("words that come again are told as possible classes, in one note; remarks are not") {
+    Case hole;
+    hole.collars(two_collars)
+        .log("BHID,DEPTH,K,LITH,UNIT,REMARK\nA,1,1,clay,U,wet\nA,2,2,clay,U,dry\nA,3,3,sand,V,broken\n"
+             "A,4,3,sand,V,core lost\n");
+    const Read result = read(hole.inputs);
+    REQUIRE(result.site.properties.size() == 1);
+    CHECK(result.noted("LITH, UNIT hold words and are left out; `properties` LITH:categorical takes the first"));
+    CHECK_FALSE(result.noted("REMARK"));
+}
+
 TEST_CASE("text that is not UTF-8 is taken for Windows-1252, and the model can be stored") {
     Case old;
     old.collars("BHID,X,Y,Z\nK\xE4rn,0,0,0\n")

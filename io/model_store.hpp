@@ -23,12 +23,21 @@ struct JournalEntry {
     std::string arguments;  ///< JSON
 };
 
+struct SaveOptions {
+    bool overwrite = false;
+    bool spatial_index = false;  ///< R-trees on the layers, for other programs: four times the writing
+};
+
 /// Writes a new model. `path` may be a PG: connection string; the layers then go to its active schema. Throws Error
-/// when the model exists and `overwrite` is false, when a text is not UTF-8, or when writing fails (nothing is left;
+/// when the model exists and is not to be replaced, when a text is not UTF-8, or when writing fails (nothing is left;
 /// what was there before stays). About 10 µs a vertex. \pre Every position is snapped (Frame::snapped); classes are
 /// distinct; indices are in range; a barrier's sheet
 ///      and margin are of one kind; vertices of role domain and inserted have owner −1.
-void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite = false);
+void save_model(const std::string& path, const Model& model, const JournalEntry& entry,
+                const SaveOptions& options = {});
+inline void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite) {
+    save_model(path, model, entry, SaveOptions{.overwrite = overwrite});
+}
 
 /// Numbers of rows in the file, in step with the model's lists. Those of a new model count up from 1; sheets follow the
 /// surfaces, each with its margin behind it.

@@ -22,7 +22,7 @@ TEST_PACKAGES=(
 command -v npm >/dev/null || TEST_PACKAGES+=(nodejs npm)
 # The heavy peers that `tests/run.sh --peers` compares with.
 PEER_PACKAGES=(gmsh libgmsh-dev r-base-core r-cran-gstat python3-scipy postgresql-15-postgis-3 libtet1.5-dev libbenchmark-dev
-               debootstrap dpkg-dev python3-qgis)
+               debootstrap dpkg-dev python3-qgis blender)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then

@@ -65,6 +65,24 @@ void ModelRows::set_values(RowWriter& layer, const std::vector<Column>& columns,
     }
 }
 
+/// From the collar to the end.
+void ModelRows::set_direction(RowWriter& layer, const schema::BoreholeColumns& columns, const Borehole& hole) const {
+    if (hole.path.empty()) {
+        return;
+    }
+    constexpr double degrees = 57.29577951308232;
+    const Vec3 way = world(hole.path.back()) - world(hole.path.front());
+    const double across = std::hypot(way.x, way.y);
+    layer.set(columns.length, hole.path_depth.back() - hole.path_depth.front());
+    if (across > 0) {
+        const double azimuth = std::atan2(way.x, way.y) * degrees;
+        layer.set(columns.azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
+    }
+    if (across > 0 || way.z != 0) {
+        layer.set(columns.dip, std::atan2(-way.z, across) * degrees);
+    }
+}
+
 void ModelRows::borehole(RowWriter& layer, const schema::BoreholeColumns& columns, std::size_t i) const {
     const Borehole& borehole = model_.boreholes[i];
     const Vec3 collar = world(borehole.collar);
@@ -72,6 +90,7 @@ void ModelRows::borehole(RowWriter& layer, const schema::BoreholeColumns& column
     layer.set(columns.collar_x, collar.x);
     layer.set(columns.collar_y, collar.y);
     layer.set(columns.collar_z, collar.z);
+    set_direction(layer, columns, borehole);
     auto line = std::make_unique<OGRLineString>();
     line->set3D(true);
     line->setMeasured(true);

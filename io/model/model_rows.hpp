@@ -40,6 +40,7 @@ class ModelRows {
     [[nodiscard]] Vec3 world(const Vec3& local) const;
     void set_values(RowWriter& layer, const std::vector<Column>& columns,
                     const std::vector<std::vector<double>>& values, std::size_t row) const;
+    void set_direction(RowWriter& layer, const schema::BoreholeColumns& columns, const Borehole& hole) const;
     void set_mesh(RowWriter& layer, const schema::SurfaceColumns& columns, const Surface& surface) const;
     [[nodiscard]] std::vector<Seed> seeds_among_vertices(std::size_t fault) const;
 

@@ -8,6 +8,7 @@
 #include "io/model/current_time.hpp"
 #include "io/model/model_rows.hpp"
 #include "io/model/model_schema.hpp"
+#include "io/model/model_styles.hpp"
 #include "io/model/sqlite_rows.hpp"
 #include "io/model_store.hpp"
 #include "io/source.hpp"
@@ -165,26 +166,28 @@ struct SideFiles {
 };
 
 /// Into the empty layers, by SQLite: GDAL would take ten times as long.
-void fill(const std::string& file, const std::string& path, const Model& model, const JournalEntry& entry) {
+void fill(const std::string& file, const std::string& path, const Model& model, const JournalEntry& entry,
+          const std::string& time) {
     SqliteDatabase database(file, path);
     SqliteTransaction transaction(database);
     const LayerSource layers = [&](const char* name, OGRwkbGeometryType) {
         return std::make_unique<SqliteRowWriter>(database, name);
     };
     ModelWriter(layers, model, false).write(entry);
+    write_styles(database, model, time);
     transaction.commit();
 }
 
-void save_in_file(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite) {
-    OutputFile file(path, overwrite);
+void save_in_file(const std::string& path, const Model& model, const JournalEntry& entry, const SaveOptions& options) {
+    OutputFile file(path, options.overwrite);
     file.close();
     const SideFiles side_files{file.temporary_path()};
     unlink(file.temporary_path().c_str());  // the driver insists on making it
+    const CreationSettings settings;
+    const std::string time = current_time_text("%Y-%m-%dT%H:%M:%S.000Z");
+    const GdalOption now("OGR_CURRENT_DATE", time.c_str());
     {
         GdalScope scope;
-        const CreationSettings settings;
-        const std::string time = current_time_text("%Y-%m-%dT%H:%M:%S.000Z");
-        const GdalOption now("OGR_CURRENT_DATE", time.c_str());
         GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
         Dataset dataset(driver ? driver->Create(file.temporary_path().c_str(), 0, 0, 0, GDT_Unknown, nullptr)
                                : nullptr);
@@ -193,21 +196,24 @@ void save_in_file(const std::string& path, const Model& model, const JournalEntr
         }
         write_transaction(dataset, scope, path, model, entry, true);
     }
-    fill(file.temporary_path(), path, model, entry);
+    fill(file.temporary_path(), path, model, entry, time);
+    if (options.spatial_index) {
+        write_spatial_indices(file.temporary_path(), path);
+    }
     file.commit();
 }
 
 }  // namespace
 
-void save_model(const std::string& path, const Model& model, const JournalEntry& entry, bool overwrite) {
+void save_model(const std::string& path, const Model& model, const JournalEntry& entry, const SaveOptions& options) {
     require_storable(model);
     for (const std::string* text : {&entry.time, &entry.command, &entry.arguments}) {
         require_storable(*text, "the journal entry");
     }
     if (is_connection(path)) {
-        save_in_database(path, model, entry, overwrite);
+        save_in_database(path, model, entry, options.overwrite);
     } else {
-        save_in_file(path, model, entry, overwrite);
+        save_in_file(path, model, entry, options);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "io/model/model_layer.hpp"
@@ -47,14 +48,27 @@ std::vector<Column> value_columns(Layer& layer, const std::vector<Property>& pro
     return columns;
 }
 
+/// Of what follows from the rest of its row and is there for people: written, never read.
+template <typename Layer>
+Column shown_number(Layer& layer, const char* name) {
+    if constexpr (std::is_base_of_v<RowWriter, Layer>) {
+        return layer.number(name);
+    } else {
+        return -1;
+    }
+}
+
 struct BoreholeColumns {
-    Column id, collar_x, collar_y, collar_z;
+    Column id, collar_x, collar_y, collar_z, length, azimuth, dip;
     template <typename Layer>
     explicit BoreholeColumns(Layer& layer)
         : id(layer.text("id")),
           collar_x(layer.number("collar_x")),
           collar_y(layer.number("collar_y")),
-          collar_z(layer.number("collar_z")) {}
+          collar_z(layer.number("collar_z")),
+          length(shown_number(layer, "length")),
+          azimuth(shown_number(layer, "azimuth")),
+          dip(shown_number(layer, "dip")) {}
 };
 
 struct SampleColumns {

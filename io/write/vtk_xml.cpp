@@ -9,7 +9,7 @@
 #include <cstring>
 #include <memory>
 
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {

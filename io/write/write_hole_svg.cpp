@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "io/base/output_file.hpp"
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 
 namespace terratet {
 

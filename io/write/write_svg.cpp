@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "io/base/output_file.hpp"
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 
 namespace terratet {
 namespace {

@@ -10,7 +10,7 @@
 #include "io/base/output_file.hpp"
 #include "io/export.hpp"
 #include "io/read/column_names.hpp"
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 #include "io/write/vtk_xml.hpp"
 
 namespace terratet {

@@ -11,7 +11,7 @@
 #include "grid_model.hpp"
 #include "io/base/crs.hpp"
 #include "io/export.hpp"
-#include "io/write/color_map.hpp"
+#include "io/style/color_map.hpp"
 #include "support.hpp"
 #include "tess/error.hpp"
 

@@ -14,8 +14,8 @@ FLOORS = {
     "tess": ["base", "site", "mesh", "barrier/complex", "barrier/query", "barrier/seeds", "barrier/prepare", "model",
              "refine", "cells", "mending", "collapse", "edit"],
     "interp": ["base", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
-    "io": ["base", "read/tables", "read/meshes", "read/surfaces", "read/logs", "read", "read/site", "model", "edit", "voxels",
-           "write", "write/scene"],
+    "io": ["base", "read/tables", "read/meshes", "read/surfaces", "read/logs", "read", "read/site", "style", "model", "edit",
+           "voxels", "write", "write/scene"],
     "tools": ["options", "run", "report", "commands"],
 }
 LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE, LONGEST_LINE = 450, 4500, 110, 120

@@ -20,7 +20,12 @@ class Build final : public Command {
                            "keep each property's standard deviation, 95 % half-width, extrapolation and number of "
                            "samples with the "
                            "vertices; of a category the classes' probabilities and entropy",
-                           &build_.exporting.uncertainty}}}});
+                           &build_.exporting.uncertainty},
+                          {{"co"},
+                           "KEY=VALUE",
+                           "SPATIAL_INDEX=YES gives the model's layers R-trees, which other programs like and which "
+                           "take longer than all other writing",
+                           &build_.exporting.creation_options}}}});
         append(syntax, run_options(build_.run));
         return syntax;
     }

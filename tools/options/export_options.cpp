@@ -188,7 +188,8 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
              {{"co"},
               "KEY=VALUE",
               "the same as creation options: -co COMPRESS=NO; ALIGN=NO centres voxels on the extent, FIELDS=ALL gives "
-              "GeoTIFF bands of extrapolation and region, VERSION=2.2 the older format of Gmsh",
+              "GeoTIFF bands of extrapolation and region, VERSION=2.2 the older format of Gmsh, SPATIAL_INDEX=YES a "
+              "model's layers R-trees",
               &a.creation_options},
          }}};
 }
@@ -228,12 +229,14 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.color = value;
         } else if (key == "COLOR_MAP") {
             a.color_map = value;
+        } else if (key == "SPATIAL_INDEX") {
+            a.spatial_index = as_flag(key, value);
         } else if (key == "FRAME") {
             a.frame = value;
         } else {
             throw UsageError(fmt::format(
                 "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
-                "LOCAL_ORIGIN, MARGIN, VERSION, VOXEL_SIZE",
+                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VOXEL_SIZE",
                 key));
         }
     }

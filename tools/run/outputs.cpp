@@ -248,7 +248,8 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     bool voxels_written = false;
     const auto write_output = [&](const std::string& text) {
         if (names_model(text)) {
-            save_model(text, model.model(), entry, run.overwrite);
+            save_model(text, model.model(), entry,
+                       {.overwrite = run.overwrite, .spatial_index = with_creation_options(arguments).spatial_index});
             std::error_code no_file;
             const auto bytes = fs::file_size(text, no_file);
             written.outputs.push_back({text, no_file ? 0 : bytes});

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/write/color_map.hpp"
+#include "io/style/color_map.hpp"
 
 namespace terratet {
 

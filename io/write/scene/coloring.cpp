@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write/scene/coloring.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -54,47 +52,6 @@ std::vector<double> decade_ticks(const ColorRange& range) {
 }
 
 }  // namespace
-
-ColorRange color_range(const Model& model, std::size_t property) {
-    const auto& values = model.vertex_values.values[property];
-    const auto& extrapolation = model.vertex_values.extrapolation;
-    std::vector<double> near;
-    std::vector<double> all;
-    for (std::size_t v = 0; v < values.size(); ++v) {
-        if (const double s = to_scale(model.properties[property], values[v]); std::isfinite(s)) {
-            all.push_back(s);
-            if (v < extrapolation.size() && extrapolation[v] < 1) {
-                near.push_back(s);
-            }
-        }
-    }
-    std::vector<double>& scaled = near.empty() ? all : near;
-    if (scaled.empty()) {
-        return {};
-    }
-    std::sort(scaled.begin(), scaled.end());
-    const auto last = static_cast<double>(scaled.size() - 1);
-    return {scaled[static_cast<std::size_t>(std::floor(0.02 * last))],
-            scaled[static_cast<std::size_t>(std::ceil(0.98 * last))]};
-}
-
-std::string number_text(double value, int digits) {
-    const double size = std::abs(value);
-    std::string text = size != 0 && (size < 1e-3 || size >= 1e5) && !(size >= 1e5 && size < 1e9 && digits > 5)
-                           ? fmt::format("{:.{}e}", value, std::max(0, digits - 1))
-                           : fmt::format("{:.{}g}", value, digits);
-    if (const auto e = text.find('e'); e != std::string::npos) {
-        std::string mantissa = text.substr(0, e);
-        if (mantissa.find('.') != std::string::npos) {
-            mantissa.erase(mantissa.find_last_not_of('0') + 1);
-            if (mantissa.back() == '.') {
-                mantissa.pop_back();
-            }
-        }
-        text = mantissa + "e" + std::to_string(std::stoi(text.substr(e + 1)));
-    }
-    return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
-}
 
 std::vector<LegendTick> legend_ticks(const Property& property, const ColorRange& range) {
     std::vector<LegendTick> ticks;

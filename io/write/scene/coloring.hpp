@@ -8,19 +8,11 @@
 #include <vector>
 
 #include "io/export.hpp"
-#include "io/write/color_map.hpp"
+#include "io/style/color_map.hpp"
+#include "io/style/color_range.hpp"
+#include "io/style/number_text.hpp"
 
 namespace terratet {
-
-/// Ends of a colour map, in the property's scale.
-struct ColorRange {
-    double low = 0;
-    double high = 1;
-};
-
-/// The 2nd and 98th percentile of the vertices' values, so that an outlier does not leave one colour for all the rest.
-/// Of vertices beyond the reach of the samples (extrapolation 1) only where there are no others.
-ColorRange color_range(const Model& model, std::size_t property);
 
 struct LegendTick {
     double value = 0;     ///< measured
@@ -30,9 +22,6 @@ struct LegendTick {
 
 /// Round numbers in the range: for log10 decades, with 2 and 5 between where there are few.
 std::vector<LegendTick> legend_ticks(const Property& property, const ColorRange& range);
-
-/// As a person writes it: four digits, no exponent between 0.001 and 100 000, and a minus that is one.
-std::string number_text(double value, int digits = 4);
 
 class Coloring {
   public:

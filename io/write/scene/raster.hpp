@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/write/color_map.hpp"
+#include "io/style/color_map.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {

@@ -12,7 +12,7 @@
 
 #include "io/base/output_file.hpp"
 #include "io/export.hpp"
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 #include "io/write/scene/gltf_document.hpp"
 #include "io/write/scene/picture.hpp"
 #include "io/write/scene/scene_page.hpp"

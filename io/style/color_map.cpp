@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/write/color_map.hpp"
+#include "io/style/color_map.hpp"
 
 #include <algorithm>
 #include <cmath>

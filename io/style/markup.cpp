@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/write/markup.hpp"
+#include "io/style/markup.hpp"
 
 namespace terratet {
 

@@ -17,6 +17,8 @@
 
 namespace terratet {
 
+class Ranks;
+
 /// What every writer sees; all of one model.
 struct ModelView {
     const Model& model;
@@ -84,6 +86,7 @@ struct ExportOptions {
     std::string title;                                      ///< HTML, PNG; empty: the name of the file
     std::string made_by;                                    ///< HTML: the program, and how one comes to such a model
     Progress progress;
+    const Ranks* ranks = nullptr;  ///< voxels: all of them make bricks (interp/ranks/ranks.hpp), rank 0 writes
 };
 
 /// Shapes of the cells of a clipped mesh but those in gaps, in the frame's unit: with its z-scale.

@@ -19,6 +19,6 @@ esac
 
 install_packages "${packages[@]}"
 cd "$root"
-cmake --preset release
+cmake --preset release -DTERRATET_MPI=ON  # of what is built for it one file differs; without mpirun all is as without
 cmake --build --preset release -j "$(build_jobs)"
 ctest --preset release -j 2 "${selection[@]}"

@@ -15,6 +15,7 @@ BUILD_PACKAGES=(
 )
 # What the tests need besides: independent readers of our outputs among others.
 TEST_PACKAGES=(
+  libopenmpi-dev openmpi-bin
   clang-14 libclang-rt-14-dev
   catch2 python3 python3-vtk9 python3-openvdb python3-gdal python3-netcdf4 netcdf-bin libopenvdb-tools gdal-bin chromium fonts-dejavu-core
 )

@@ -125,8 +125,8 @@ CrossValidation cross_validate(const Model& model, const BarrierQuery& barriers,
                 }
             }
             const Some part = some(kept);
-            of_group[group] = fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &seen,
-                                               samples_of_fold_fit);
+            of_group[group] =
+                fitted_estimator(open, part.sites, part.values, part.boreholes, kind.kind, &seen, samples_of_fold_fit);
         });
     }
     const PartialEstimator make = [&](std::span<const std::uint32_t> kept, std::uint32_t fold) {
@@ -146,16 +146,19 @@ CrossValidation cross_validate(const Model& model, const BarrierQuery& barriers,
     out.estimated.resize(sites.size());
     out.deviation.assign(sites.size(), missing);
     out.half_width.assign(sites.size(), missing);
-    for_each_left_out(sites, folds, make, columns, [&](std::uint32_t i, const Weights& weights, const auto& added) {
-        const MadeUp slopes = added.empty() ? MadeUp{} : added.front();
-        out.estimated[i] = estimate_from(weights.terms, out.measured, kind.kind) + slopes.value;
-        out.fallbacks += weights.fallback ? 1 : 0;
-        study.add(i, out.estimated[i], weights);
-        slope_variance[i] = slopes.variance;
-        if (!has_variance) {
-            left_out[i] = weights;
-        }
-    });
+    for_each_left_out(
+        sites, folds, make, columns,
+        [&](std::uint32_t i, const Weights& weights, const auto& added) {
+            const MadeUp slopes = added.empty() ? MadeUp{} : added.front();
+            out.estimated[i] = estimate_from(weights.terms, out.measured, kind.kind) + slopes.value;
+            out.fallbacks += weights.fallback ? 1 : 0;
+            study.add(i, out.estimated[i], weights);
+            slope_variance[i] = slopes.variance;
+            if (!has_variance) {
+                left_out[i] = weights;
+            }
+        },
+        {0, 0}, options.ranks);
     if (kind.kind == Kind::categorical) {
         return out;
     }

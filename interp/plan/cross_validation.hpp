@@ -16,9 +16,12 @@
 
 namespace terratet {
 
+class Ranks;
+
 struct CrossValidationOptions {
     std::size_t max_folds = 0;     ///< boreholes share so many folds; 0: each is left out alone
     std::size_t loose_folds = 20;  ///< blocks of loose samples
+    const Ranks* ranks = nullptr;  ///< who share the folds, each calling with the same data; all get the same result
 };
 
 /// One estimator and one property, over the samples that have the property.

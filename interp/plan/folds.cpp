@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -12,6 +13,8 @@
 
 #include "interp/base/morton.hpp"
 #include "interp/plan/extrapolation.hpp"
+#include "interp/ranks/bytes.hpp"
+#include "interp/ranks/ranks.hpp"
 
 namespace terratet {
 namespace {
@@ -49,6 +52,59 @@ void add_slopes(const Estimator& estimator, std::span<const FoldColumn> columns,
             added[k * columns.size() + c] =
                 made_up(weighted_mean(weights[k].terms, some[c]), weights[k],
                         extrapolation_at(weights[k].distance, traits.reach), slopes.get(), c, traits);
+        }
+    }
+}
+
+/// Of one fold.
+struct Result {
+    std::vector<std::uint32_t> sites;
+    std::vector<Weights> weights;
+    std::vector<MadeUp> added;  ///< of each query, by column
+};
+
+void put(const Result& result, ByteWriter& out) {
+    out.put(result.sites);
+    out.put(result.added);
+    for (const Weights& w : result.weights) {
+        out.put(w.terms);
+        out.put(w.slope_terms);
+        out.put(std::array{w.beyond, w.hidden, w.lever.x, w.lever.y, w.lever.z, w.distance, w.variance});
+        out.put(w.fallback);
+    }
+}
+
+Result get_result(ByteReader& in) {
+    Result result;
+    result.sites = in.list<std::uint32_t>();
+    result.added = in.list<MadeUp>();
+    result.weights.resize(result.sites.size());
+    for (Weights& w : result.weights) {
+        w.terms = in.list<SiteWeight>();
+        w.slope_terms = in.list<SiteWeight>();
+        const auto [beyond, hidden, x, y, z, distance, variance] = in.get<std::array<double, 7>>();
+        w.beyond = beyond;
+        w.hidden = hidden;
+        w.lever = {x, y, z};
+        w.distance = distance;
+        w.variance = variance;
+        w.fallback = in.get<bool>();
+    }
+    return result;
+}
+
+/// Each rank has made those whose number is its own, modulo how many there are.
+void exchange_results(const Ranks& ranks, std::vector<Result>& results) {
+    const auto count = static_cast<std::size_t>(ranks.count());
+    ByteWriter own;
+    for (auto k = static_cast<std::size_t>(ranks.rank()); k < results.size(); k += count) {
+        put(results[k], own);
+    }
+    const std::vector<std::string> all = ranks.exchange(own.take());
+    for (std::size_t rank = 0; rank < count; ++rank) {
+        ByteReader in(all[rank]);
+        for (std::size_t k = rank; k < results.size(); k += count) {
+            results[k] = get_result(in);
         }
     }
 }
@@ -105,18 +161,13 @@ void for_each_left_out(
     std::span<const Vec3> sites, const std::vector<Fold>& folds, const PartialEstimator& make,
     std::span<const FoldColumn> columns,
     const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit,
-    const SomeSites& targets) {
+    const SomeSites& targets, const Ranks* ranks) {
     std::vector<std::uint32_t> fold_of(sites.size());
     for (std::uint32_t f = 0; f < folds.size(); ++f) {
         for (const std::uint32_t i : folds[f]) {
             fold_of[i] = f;
         }
     }
-    struct Result {
-        std::vector<std::uint32_t> sites;
-        std::vector<Weights> weights;
-        std::vector<MadeUp> added;  ///< of each query, by column
-    };
     const auto leave_out = [&](std::uint32_t f) {
         std::vector<std::uint32_t> kept;
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
@@ -148,12 +199,20 @@ void for_each_left_out(
         return result;
     };
     // Some folds at a time, so that their weights do not pile up.
-    constexpr std::uint32_t at_a_time = 32;
+    const auto sharing = static_cast<std::uint32_t>(ranks == nullptr ? 1 : ranks->count());
+    const auto rank = static_cast<std::uint32_t>(ranks == nullptr ? 0 : ranks->rank());
+    const std::uint32_t at_a_time = 32 * sharing;
     const auto count = static_cast<std::uint32_t>(folds.size());
     for (std::uint32_t begin = 0; begin < count; begin += at_a_time) {
         std::vector<Result> results(std::min(at_a_time, count - begin));
-        tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(results.size()),
-                          [&](std::uint32_t k) { results[k] = leave_out(begin + k); });
+        tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(results.size()), [&](std::uint32_t k) {
+            if (k % sharing == rank) {
+                results[k] = leave_out(begin + k);
+            }
+        });
+        if (sharing > 1) {
+            exchange_results(*ranks, results);
+        }
         for (std::uint32_t k = 0; k < results.size(); ++k) {
             const auto& [sites_of, weights, added] = results[k];
             for (std::size_t i = 0; i < weights.size(); ++i) {

@@ -18,6 +18,8 @@
 
 namespace terratet {
 
+class Ranks;
+
 /// The samples named by `which`, in groups that are left out together: each borehole, and the loose samples in
 /// `loose_folds` blocks of neighbours (fewer where there are fewer samples). With `max_folds` > 0 groups share folds in
 /// turn, so that there are no more than that. Indices into `which`, each in exactly one fold; no fold is empty. One
@@ -54,11 +56,12 @@ class SomeSites {
 
 /// Calls `visit` with each site of `targets`, its weights from the sites of all other folds and for each column what
 /// slopes add to the weighted mean, one at a time, fold by fold; terms name sites as `sites` does. No terms: the others
-/// give no value there. Costs one estimator per fold; folds run in parallel, `make` must stand that.
+/// give no value there. Costs one estimator per fold; folds run in parallel, `make` must stand that. With several ranks
+/// (null: alone) each calls it with the same arguments; they share the folds, and every rank sees all results.
 void for_each_left_out(
     std::span<const Vec3> sites, const std::vector<std::vector<std::uint32_t>>& folds, const PartialEstimator& make,
     std::span<const FoldColumn> columns,
     const std::function<void(std::uint32_t site, const Weights& weights, std::span<const MadeUp> added)>& visit,
-    const SomeSites& targets = {0, 0});
+    const SomeSites& targets = {0, 0}, const Ranks* ranks = nullptr);
 
 }  // namespace terratet

@@ -6,6 +6,10 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "interp/ranks/bytes.hpp"
+#include "interp/ranks/ranks.hpp"
 
 namespace terratet {
 namespace {
@@ -14,8 +18,121 @@ struct InFlight {
     std::size_t number = 0;
     Brick brick;
     std::vector<std::unique_ptr<BrickPiece>> pieces;  ///< one a sink
+    std::string message;                              ///< to or from another rank
 };
 using Token = std::shared_ptr<InFlight>;
+using Sinks = std::span<BrickSink* const>;
+
+Token begin_brick(const BrickSource& source, std::size_t number) {
+    auto token = std::make_shared<InFlight>();
+    token->number = number;
+    place_brick(source.lattice(), number, token->brick);
+    return token;
+}
+
+void make_brick(const BrickSource& source, Brick& brick) {
+    brick.values.assign(source.fields(), {});
+    source.fill(brick);
+}
+
+std::size_t total_bricks(const BrickSource& source) {
+    const auto counts = brick_counts(source.lattice());
+    return static_cast<std::size_t>(counts[0] * counts[1] * counts[2]);
+}
+
+std::size_t most_in_flight(Sinks sinks) {
+    return static_cast<std::size_t>(2 * tbb::info::default_concurrency()) + sinks.size();
+}
+
+/// A brick for rank 0: the pieces of portable sinks, and the values if a sink is not.
+std::string packed(const Brick& brick, Sinks sinks) {
+    ByteWriter out;
+    const bool with_values = !std::ranges::all_of(sinks, &BrickSink::portable);
+    for (const auto& values : brick.values) {
+        out.put(with_values ? values : std::vector<float>{});
+    }
+    for (const BrickSink* sink : sinks) {
+        if (sink->portable()) {
+            out.put(sink->to_bytes(*sink->prepare(brick)));
+        }
+    }
+    return out.take();
+}
+
+void unpack(std::size_t fields, Sinks sinks, InFlight& token) {
+    ByteReader in(token.message);
+    for (std::size_t f = 0; f < fields; ++f) {
+        token.brick.values.push_back(in.list<float>());
+    }
+    for (const BrickSink* sink : sinks) {
+        token.pieces.push_back(sink->portable() ? sink->from_bytes(in.text()) : sink->prepare(token.brick));
+    }
+    token.message.clear();
+}
+
+/// Another rank's part.
+void send_bricks(const BrickSource& source, Sinks sinks, const Progress& progress, const Ranks& ranks) {
+    const std::size_t total = total_bricks(source);
+    auto next = static_cast<std::size_t>(ranks.rank());
+    const auto begin =
+        tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Token {
+            if (next >= total) {
+                control.stop();
+                return nullptr;
+            }
+            return begin_brick(source, std::exchange(next, next + static_cast<std::size_t>(ranks.count())));
+        });
+    const auto make = tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, [&](Token token) {
+        make_brick(source, token->brick);
+        token->message = packed(token->brick, sinks);
+        return token;
+    });
+    const auto send = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](const Token& token) {
+        ranks.send(std::move(token->message));
+        report_progress(progress, "resample", static_cast<double>(token->number + 1) / static_cast<double>(total));
+    });
+    tbb::parallel_pipeline(most_in_flight(sinks), begin & make & send);
+}
+
+void gather_bricks(const BrickSource& source, Sinks sinks, const Progress& progress, const Ranks* ranks) {
+    const std::size_t total = total_bricks(source);
+    const auto count = static_cast<std::size_t>(ranks == nullptr ? 1 : ranks->count());
+    std::size_t next = 0;
+    const auto begin =
+        tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Token {
+            if (next == total) {
+                control.stop();
+                return nullptr;
+            }
+            Token token = begin_brick(source, next++);
+            if (const std::size_t owner = token->number % count; owner != 0) {
+                token->message = ranks->receive(static_cast<int>(owner));
+            }
+            return token;
+        });
+    const auto make = tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, [&](Token token) {
+        if (token->number % count != 0) {
+            unpack(source.fields(), sinks, *token);
+            return token;
+        }
+        make_brick(source, token->brick);
+        for (const BrickSink* sink : sinks) {
+            token->pieces.push_back(sink->prepare(token->brick));
+        }
+        return token;
+    });
+    auto chain = begin & make;
+    for (std::size_t s = 0; s < sinks.size(); ++s) {
+        chain = chain & tbb::make_filter<Token, Token>(tbb::filter_mode::serial_in_order, [&, s](Token token) {
+                    sinks[s]->put(token->brick, std::move(token->pieces[s]));
+                    return token;
+                });
+    }
+    const auto end = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](const Token& token) {
+        report_progress(progress, "resample", static_cast<double>(token->number + 1) / static_cast<double>(total));
+    });
+    tbb::parallel_pipeline(most_in_flight(sinks), chain & end);
+}
 
 }  // namespace
 
@@ -42,42 +159,13 @@ void place_brick(const Lattice& lattice, std::size_t n, Brick& brick) {
     }
 }
 
-void stream_bricks(const BrickSource& source, std::span<BrickSink* const> sinks, const Progress& progress) {
-    const auto counts = brick_counts(source.lattice());
-    const auto total = static_cast<std::size_t>(counts[0] * counts[1] * counts[2]);
-    const auto tokens = static_cast<std::size_t>(2 * tbb::info::default_concurrency()) + sinks.size();
-
-    std::size_t next = 0;
-    const auto begin =
-        tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Token {
-            if (next == total) {
-                control.stop();
-                return nullptr;
-            }
-            auto token = std::make_shared<InFlight>();
-            token->number = next++;
-            place_brick(source.lattice(), token->number, token->brick);
-            return token;
-        });
-    const auto make = tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, [&](Token token) {
-        token->brick.values.assign(source.fields(), {});
-        source.fill(token->brick);
-        for (const BrickSink* sink : sinks) {
-            token->pieces.push_back(sink->prepare(token->brick));
-        }
-        return token;
-    });
-    auto chain = begin & make;
-    for (std::size_t s = 0; s < sinks.size(); ++s) {
-        chain = chain & tbb::make_filter<Token, Token>(tbb::filter_mode::serial_in_order, [&, s](Token token) {
-                    sinks[s]->put(token->brick, std::move(token->pieces[s]));
-                    return token;
-                });
+void stream_bricks(const BrickSource& source, std::span<BrickSink* const> sinks, const Progress& progress,
+                   const Ranks* ranks) {
+    if (ranks != nullptr && !ranks->is_root()) {
+        send_bricks(source, sinks, progress, *ranks);
+    } else {
+        gather_bricks(source, sinks, progress, ranks);
     }
-    const auto end = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](const Token& token) {
-        report_progress(progress, "resample", static_cast<double>(token->number + 1) / static_cast<double>(total));
-    });
-    tbb::parallel_pipeline(tokens, chain & end);
 }
 
 }  // namespace terratet

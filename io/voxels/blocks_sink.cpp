@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "interp/ranks/bytes.hpp"
 #include "io/base/csv_text.hpp"
 #include "io/base/output_file.hpp"
 #include "io/read/column_names.hpp"
@@ -62,6 +63,24 @@ class BlocksSink final : public VoxelSink {
                 }
             }
         }
+        return piece;
+    }
+
+    [[nodiscard]] bool portable() const override { return true; }
+
+    [[nodiscard]] std::string to_bytes(const BrickPiece& made) const override {
+        const auto& piece = static_cast<const Piece&>(made);
+        ByteWriter out;
+        out.put(std::string_view(piece.text));
+        out.put(piece.lines);
+        return out.take();
+    }
+
+    [[nodiscard]] std::unique_ptr<BrickPiece> from_bytes(std::string_view bytes) const override {
+        auto piece = std::make_unique<Piece>();
+        ByteReader in(bytes);
+        piece->text = in.text();
+        piece->lines = in.list<Line>();
         return piece;
     }
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "interp/ranks/bytes.hpp"
 #include "interp/voxels/bricks.hpp"
 #include "io/voxels/spill_file.hpp"
 
@@ -72,6 +73,37 @@ LeafBlock<TreeT> pack_leaves(const Brick& brick, const std::vector<float>& value
         }
     }
     block.bytes = out.str();
+    return block;
+}
+
+template <class TreeT>
+void put_leaves(const LeafBlock<TreeT>& block, ByteWriter& out) {
+    out.put(static_cast<std::uint64_t>(block.leaves.size()));
+    for (const auto& entry : block.leaves) {
+        out.put(std::array{entry.origin.x(), entry.origin.y(), entry.origin.z()});
+        for (openvdb::Index n = 0; n < entry.mask.WORD_COUNT; ++n) {
+            out.put(entry.mask.template getWord<std::uint64_t>(n));
+        }
+        out.put(entry.begin);
+        out.put(entry.size);
+    }
+    out.put(std::string_view(block.bytes));
+}
+
+template <class Block>
+Block get_leaves(ByteReader& in) {
+    Block block;
+    block.leaves.resize(in.get<std::uint64_t>());
+    for (auto& entry : block.leaves) {
+        const auto [x, y, z] = in.get<std::array<std::int32_t, 3>>();
+        entry.origin = {x, y, z};
+        for (openvdb::Index n = 0; n < entry.mask.WORD_COUNT; ++n) {
+            entry.mask.template getWord<std::uint64_t>(n) = in.get<std::uint64_t>();
+        }
+        entry.begin = in.get<std::uint64_t>();
+        entry.size = in.get<std::uint64_t>();
+    }
+    block.bytes = in.text();
     return block;
 }
 

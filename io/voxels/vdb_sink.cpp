@@ -101,6 +101,30 @@ class VdbSink final : public VoxelSink {
         return piece;
     }
 
+    [[nodiscard]] bool portable() const override { return true; }
+
+    [[nodiscard]] std::string to_bytes(const BrickPiece& made) const override {
+        ByteWriter out;
+        for (const auto& block : static_cast<const Piece&>(made).blocks) {
+            std::visit([&](const auto& leaves) { put_leaves(leaves, out); }, block);
+        }
+        return out.take();
+    }
+
+    [[nodiscard]] std::unique_ptr<BrickPiece> from_bytes(std::string_view bytes) const override {
+        auto piece = std::make_unique<Piece>();
+        ByteReader in(bytes);
+        for (const Output& output : outputs_) {
+            std::visit(
+                [&](const auto& grid) {
+                    using Block = typename std::remove_reference_t<decltype(*grid)>::Block;
+                    piece->blocks.emplace_back(get_leaves<Block>(in));
+                },
+                output.grid);
+        }
+        return piece;
+    }
+
     void put(const Brick&, std::unique_ptr<BrickPiece> made) override {
         const auto& piece = static_cast<const Piece&>(*made);
         for (std::size_t o = 0; o < outputs_.size(); ++o) {

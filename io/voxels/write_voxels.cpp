@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "interp/ranks/ranks.hpp"
 #include "interp/voxels/model_bricks.hpp"
+#include "io/base/scratch_folder.hpp"
 #include "io/voxels/voxel_sink.hpp"
 #include "tess/error.hpp"
 
@@ -78,6 +80,22 @@ std::unique_ptr<VoxelSink> make_sink(const VoxelGrid& grid, const VoxelOutput& o
     return make_geotiff_sink(grid, output.path, options);
 }
 
+/// At a rank that does not write: sinks that prepare bricks for rank 0's, and whose files nobody sees.
+void prepare_for_root(const BrickSource& source, const VoxelGrid& grid, std::span<const VoxelOutput> outputs,
+                      const ExportOptions& options) {
+    const ScratchFolder scratch;
+    std::vector<std::unique_ptr<VoxelSink>> sinks;
+    std::vector<BrickSink*> all;
+    for (const VoxelOutput& output : outputs) {
+        VoxelOutput unseen = output;
+        unseen.path = scratch.path() / std::to_string(all.size()) / std::filesystem::path(output.path).filename();
+        std::filesystem::create_directory(std::filesystem::path(unseen.path).parent_path());
+        sinks.push_back(make_sink(grid, unseen, options));
+        all.push_back(sinks.back().get());
+    }
+    stream_bricks(source, all, options.progress, options.ranks);
+}
+
 }  // namespace
 
 VoxelPlan plan_voxels(const VoxelGrid& grid, const VoxelOutput& output, const ExportOptions& options) {
@@ -115,13 +133,17 @@ std::vector<OutputRecord> write_voxels(const ModelView& view, std::span<const Vo
 
 std::vector<OutputRecord> write_voxels(const BrickSource& source, const VoxelGrid& grid,
                                        std::span<const VoxelOutput> outputs, const ExportOptions& options) {
+    if (options.ranks != nullptr && !options.ranks->is_root()) {
+        prepare_for_root(source, grid, outputs, options);
+        return std::vector<OutputRecord>(outputs.size());
+    }
     std::vector<std::unique_ptr<VoxelSink>> sinks;
     std::vector<BrickSink*> all;
     for (const VoxelOutput& output : outputs) {
         sinks.push_back(make_sink(grid, output, options));
         all.push_back(sinks.back().get());
     }
-    stream_bricks(source, all, options.progress);
+    stream_bricks(source, all, options.progress, options.ranks);
     std::vector<OutputRecord> records;
     for (auto& sink : sinks) {
         sink->close();

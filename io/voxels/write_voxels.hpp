@@ -22,7 +22,8 @@ struct VoxelOutput {
 /// Throws UsageError for a lattice that is too large, or larger than is usual without options.allow_large.
 VoxelPlan plan_voxels(const ModelView& view, const VoxelOutput& output, const ExportOptions& options);
 
-/// In step with outputs: all or none.
+/// In step with outputs: all or none. With options.ranks each rank calls it; those but 0 leave nothing behind, and what
+/// they return says nothing.
 std::vector<OutputRecord> write_voxels(const ModelView& view, std::span<const VoxelOutput> outputs,
                                        const ExportOptions& options);
 

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FLOORS = {
     "tess": ["base", "site", "mesh", "barrier/complex", "barrier/query", "barrier/seeds", "barrier/prepare", "model",
              "refine", "cells", "mending", "collapse", "edit"],
-    "interp": ["base", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
+    "interp": ["base", "ranks", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
     "io": ["base", "read/tables", "read/meshes", "read/surfaces", "read/logs", "read", "read/site", "style", "model", "edit",
            "voxels", "write", "write/scene"],
     "tools": ["options", "run", "report", "commands"],

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spdlog/spdlog.h>
 
+#include "interp/ranks/ranks.hpp"
 #include "tess/error.hpp"
 #include "tools/commands/run_build.hpp"
 #include "tools/options/command.hpp"
@@ -24,6 +25,11 @@ class Export final : public Command {
         return syntax;
     }
 
+    bool share_among(const Ranks& ranks) override {
+        run_.ranks = &ranks;
+        return true;
+    }
+
     int run(const std::vector<Given>&) override {
         const Stopwatch total;
         const std::string& input = paths_.front();
@@ -34,8 +40,14 @@ class Export final : public Command {
             }
         }
         check_export_arguments(exporting_);
-        check_outputs(outputs, {input}, exporting_, run_);
-
+        const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
+        if (writes) {
+            check_outputs(outputs, {input}, exporting_, run_);
+        }
+        start_together(run_.ranks);
+        if (!writes && !any_voxels(outputs, exporting_)) {
+            return exit_done;
+        }
         const ThreadLimit threads(run_.threads);
         LiveModel live(open_model(input, accept_edited_));
         if (exporting_.uncertainty) {
@@ -52,6 +64,9 @@ class Export final : public Command {
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
             record.written = write_outputs(*record.model, outputs, exporting_, run_, {}, display.callback());
+        }
+        if (!writes) {
+            return exit_done;
         }
         record.write_seconds = writing.seconds();
         record.total_seconds = total.seconds();

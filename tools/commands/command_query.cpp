@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "interp/ranks/ranks.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/text.hpp"
@@ -39,13 +40,21 @@ class Query final : public Command {
         return syntax;
     }
 
+    /// Estimates take long; other verbs do not.
+    bool share_among(const Ranks& ranks) override {
+        const bool shared = words_.size() > 1 && words_[1] == "value";
+        arguments_.ranks = shared ? &ranks : nullptr;
+        return shared;
+    }
+
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
         arguments_.words.assign(words_.begin() + 1, words_.end());
         const ModelSnapshot opened(open_model(words_[0], accept_edited_));
+        const bool writes = arguments_.ranks == nullptr || arguments_.ranks->is_root();
         Printed printed;
         std::unique_ptr<RowSink> file;
-        if (!output_.empty() && output_ != "-") {
+        if (writes && !output_.empty() && output_ != "-") {
             file = rows_to_file(output_, arguments_.words.front(), opened.model().frame, overwrite_);
         }
         QueryRemarks remarks;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interp/estimator_spec.hpp"
+#include "interp/ranks/ranks.hpp"
 #include "io/base/output_file.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
@@ -63,6 +64,11 @@ class Validate final : public Command {
         return syntax;
     }
 
+    bool share_among(const Ranks& ranks) override {
+        run_.ranks = &ranks;
+        return true;
+    }
+
     int run(const std::vector<Given>&) override {
         std::vector<EstimatorSpec> specs;
         for (const auto& text :
@@ -71,7 +77,11 @@ class Validate final : public Command {
         }
         std::vector<std::string> inputs = input_paths(site_);
         inputs.insert(inputs.end(), models_.begin(), models_.end());
-        check_places(plot_.empty() ? std::vector<std::string>{} : std::vector{plot_}, inputs, run_);
+        const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
+        if (writes) {
+            check_places(plot_.empty() ? std::vector<std::string>{} : std::vector{plot_}, inputs, run_);
+        }
+        start_together(run_.ranks);
         const ThreadLimit threads(run_.threads);
         Diagnostics diagnostics;
         Model model;
@@ -88,10 +98,14 @@ class Validate final : public Command {
             const BarrierQuery faults = model_proximity(model);
             CrossValidationOptions options;
             options.max_folds = folds_;
+            options.ranks = run_.ranks;
             all = validate_all(model, faults, specs, options, suggest_, display.callback());
         }
         if (all.empty()) {
             throw InputError("no property has a sample: there is nothing to validate");
+        }
+        if (!writes) {
+            return exit_done;
         }
         if (!plot_.empty()) {
             write_svg(validation_charts(model, all), plot_, run_.overwrite);

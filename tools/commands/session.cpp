@@ -11,6 +11,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "interp/ranks/ranks.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/command_line.hpp"
@@ -51,14 +52,14 @@ bool asks_for_help(const std::string& argument) {
     return argument == "--help" || argument == "-help" || argument == "-h";
 }
 
-int dispatch(const std::vector<std::string>& arguments) {
+int dispatch(const std::vector<std::string>& arguments, const Ranks& ranks) {
     if (arguments.empty()) {
         std::fputs(short_usage().c_str(), stderr);
         return exit_usage;
     }
     const std::string& name = arguments.front();
     if (name == "--version" || name == "-version") {
-        return print(std::string("terratet ") + version + "\n");
+        return print(std::string("terratet ") + version + (Ranks::available() ? " with MPI" : "") + "\n");
     }
     if (name == "--json-usage" || name == "-json-usage") {
         return print(json_usage());
@@ -78,41 +79,80 @@ int dispatch(const std::vector<std::string>& arguments) {
     const auto given = parse_arguments(command->syntax(), rest);
     const bool quiet = std::any_of(given.begin(), given.end(), [](const Given& option) { return option.name == "q"; });
     spdlog::set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+    if (ranks.count() > 1 && !command->share_among(ranks) && !ranks.is_root()) {
+        return exit_done;
+    }
     command->open_sockets();
-    stay_offline(arguments);
+    stay_offline(arguments, ranks);
     return command->run(given);
 }
 
-int fail(int exit_code, const char* what) {
-    std::fprintf(stderr, "terratet: %s\n", printable(with_options(one_line(what))).c_str());
-    return exit_code;
+/// Of several ranks only the first speaks, and only it tells the shell how it went.
+int say(const RankOutcome& outcome) {
+    const auto line = [&](int exit_code) {
+        std::fprintf(stderr, "terratet: %s\n", printable(with_options(one_line(outcome.message))).c_str());
+        return exit_code;
+    };
+    switch (outcome.kind) {
+        case RankOutcome::Kind::done:
+            return exit_done;
+        case RankOutcome::Kind::stopped:
+            return tell_interrupted() ? line(exit_failed) : exit_failed;
+        case RankOutcome::Kind::usage:
+            return line(exit_usage);
+        case RankOutcome::Kind::input:
+            return line(exit_input);
+        default:
+            return line(exit_failed);
+    }
+}
+
+RankOutcome run(const std::vector<std::string>& arguments, const Ranks& ranks, int& exit_code) {
+    using Kind = RankOutcome::Kind;
+    try {
+        start_log();
+        if (!ranks.is_root()) {
+            fall_silent();
+        }
+        watch_for_interrupts();
+        take_size_limits_as_errors();
+        exit_code = dispatch(arguments, ranks);
+        return {};
+    } catch (const UsageError& error) {
+        return {Kind::usage, error.what()};
+    } catch (const InputError& error) {
+        return {Kind::input, error.what()};
+    } catch (const Cancelled&) {
+        return {Kind::stopped, "interrupted; nothing was written"};
+    } catch (const Error& error) {
+        return {Kind::failed, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {Kind::failed, out_of_memory};
+    } catch (const std::length_error&) {  // a list longer than there can be
+        return {Kind::failed, out_of_memory};
+    } catch (const std::exception& error) {
+        return {Kind::failed, std::string("something failed that should not (") + error.what() +
+                                  "); please report it, with the command and its inputs"};
+    }
 }
 
 }  // namespace
 
 int run_terratet(const std::vector<std::string>& arguments) {
-    try {
-        start_log();
-        watch_for_interrupts();
-        take_size_limits_as_errors();
-        return dispatch(arguments);
-    } catch (const UsageError& error) {
-        return fail(exit_usage, error.what());
-    } catch (const InputError& error) {
-        return fail(exit_input, error.what());
-    } catch (const Cancelled&) {
-        return tell_interrupted() ? fail(exit_failed, "interrupted; nothing was written") : exit_failed;
-    } catch (const Error& error) {
-        return fail(exit_failed, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(exit_failed, out_of_memory);
-    } catch (const std::length_error&) {  // a list longer than there can be
-        return fail(exit_failed, out_of_memory);
-    } catch (const std::exception& error) {
-        return fail(exit_failed, (std::string("something failed that should not (") + error.what() +
-                                  "); please report it, with the command and its inputs")
-                                     .c_str());
+    const Ranks ranks;
+    int exit_code = exit_done;
+    const RankOutcome own = run(arguments, ranks, exit_code);
+    if (!ranks.is_root()) {
+        ranks.finish(own);
+        return exit_done;
     }
+    if (own.kind != RankOutcome::Kind::done) {  // at once: the others may take a while to notice
+        exit_code = say(own);
+        ranks.finish(own);
+        return exit_code;
+    }
+    const RankOutcome all = ranks.finish(own);
+    return all.kind == RankOutcome::Kind::done ? exit_code : say(all);
 }
 
 }  // namespace terratet::tools

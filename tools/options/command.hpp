@@ -11,6 +11,10 @@
 
 #include "tools/options/option.hpp"
 
+namespace terratet {
+class Ranks;
+}
+
 namespace terratet::tools {
 
 /// A command ready to parse and run: the syntax points into its own arguments.
@@ -21,6 +25,8 @@ class Command {
     /// Opens what it has to listen at, after the targets are filled: afterwards no socket can be had
     /// (tools/run/offline.hpp).
     virtual void open_sockets() {}
+    /// Of several processes that run the command each: does it share its work among them? Else rank 0 runs it alone.
+    virtual bool share_among(const Ranks&) { return false; }
     /// Does the work after the targets are filled and returns the exit code. `given` goes to the model's journal.
     virtual int run(const std::vector<struct Given>& given) = 0;
 };

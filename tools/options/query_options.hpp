@@ -9,6 +9,10 @@
 
 #include "tools/options/option.hpp"
 
+namespace terratet {
+class Ranks;
+}
+
 namespace terratet::tools {
 
 struct QueryArguments {
@@ -27,6 +31,7 @@ struct QueryArguments {
     std::string side = "+";
     bool probabilities = false;
     bool no_deviation = false;
+    const Ranks* ranks = nullptr;  ///< who shares the work; null: nobody
 };
 
 std::vector<OptionGroup> query_options(QueryArguments& arguments);

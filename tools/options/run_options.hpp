@@ -10,6 +10,10 @@
 
 #include "tools/options/option.hpp"
 
+namespace terratet {
+class Ranks;
+}
+
 namespace terratet::tools {
 
 struct RunArguments {
@@ -20,6 +24,7 @@ struct RunArguments {
     bool overwrite = false;
     bool strict = false;
     bool quiet = false;
+    const Ranks* ranks = nullptr;  ///< who shares the work; null: nobody
 };
 
 /// The title of the group: what the journal leaves out.

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "interp/ranks/ranks.hpp"
 #include "io/base/needed_drivers.hpp"
 #include "io/base/network.hpp"
 
@@ -47,8 +48,8 @@ bool wants_grids() {
 
 }  // namespace
 
-void stay_offline(const std::vector<std::string>& arguments) {
-    if (std::none_of(arguments.begin(), arguments.end(), names_network) && !wants_grids()) {
+void stay_offline(const std::vector<std::string>& arguments, const Ranks& ranks) {
+    if (ranks.count() == 1 && std::none_of(arguments.begin(), arguments.end(), names_network) && !wants_grids()) {
         refuse_internet_sockets();
     }
     keep_needed_gdal_drivers();

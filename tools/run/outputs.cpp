@@ -17,7 +17,9 @@
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include "interp/ranks/ranks.hpp"
 #include "io/base/output_file.hpp"
+#include "io/base/scratch_folder.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
@@ -88,29 +90,6 @@ std::time_t now() {
 
 constexpr const char* standard_output = "-";
 
-/// A folder of its own among the temporary ones, gone with all in it at the end.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "terratet-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) {
-            throw Error(fmt::format("cannot make a temporary folder in {}", fs::temp_directory_path().string()));
-        }
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
 /// By way of a file, so that nothing goes out unless all of it is there.
 OutputRecord export_to_standard_output(const ModelSnapshot& model, const ExportOptions& options) {
     const ScratchFolder scratch;
@@ -149,6 +128,12 @@ bool is_voxels(const OutputRequest& output, const ExportArguments& arguments) {
 }
 
 }  // namespace
+
+bool any_voxels(const std::vector<std::string>& outputs, const ExportArguments& arguments) {
+    return std::ranges::any_of(outputs, [&](const std::string& text) {
+        return !names_model(text) && is_voxels(parse_output(text), arguments);
+    });
+}
 
 bool names_model(const std::string& path) {
     return path.ends_with(".gpkg") || path.starts_with("PG:");
@@ -237,6 +222,7 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     ExportOptions options = writer_options(arguments, model.model());
     options.overwrite = run.overwrite;
     options.progress = progress;
+    options.ranks = run.ranks;
     options.made_by = made_by(model.model());
     Written written;
     std::vector<OutputRequest> voxels;  // share one pass, when the first of them is due
@@ -244,6 +230,12 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
         if (!names_model(text) && is_voxels(parse_output(text), arguments)) {
             voxels.push_back(parse_output(text));
         }
+    }
+    if (run.ranks != nullptr && !run.ranks->is_root()) {
+        if (!voxels.empty()) {
+            export_model(model, voxels, options);
+        }
+        return written;
     }
     bool voxels_written = false;
     const auto write_output = [&](const std::string& text) {

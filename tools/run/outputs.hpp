@@ -16,6 +16,9 @@
 
 namespace terratet::tools {
 
+/// Is one of them of voxels, and a file?
+bool any_voxels(const std::vector<std::string>& outputs, const ExportArguments& arguments);
+
 /// A GeoPackage or a PostGIS connection string.
 bool names_model(const std::string& path);
 

@@ -8,6 +8,7 @@
 
 #include <tbb/global_control.h>
 
+#include "interp/ranks/ranks.hpp"
 #include "tess/error.hpp"
 #include "tools/options/printable.hpp"
 
@@ -22,6 +23,20 @@ int print(const std::string& data) {
 void write_to_standard_output(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
         throw Error("standard output cannot be written to");
+    }
+}
+
+void start_together(const Ranks* ranks) {
+    if (ranks != nullptr) {
+        static_cast<void>(ranks->broadcast("go"));
+    }
+}
+
+void fall_silent() {
+    for (std::FILE* stream : {stdout, stderr}) {
+        if (std::freopen("/dev/null", "w", stream) == nullptr) {
+            throw Error("/dev/null cannot be written to");
+        }
     }
 }
 

@@ -12,6 +12,10 @@
 
 #include "tools/options/exit_code.hpp"
 
+namespace terratet {
+class Ranks;
+}
+
 namespace terratet::tools {
 
 /// Writes data to standard output and returns exit_done. Throws Error when it cannot. Where that is a terminal, what
@@ -31,6 +35,12 @@ class Stopwatch {
     using Clock = std::chrono::steady_clock;
     Clock::time_point begin_ = Clock::now();
 };
+
+/// Waits until rank 0 has seen that its arguments and outputs are right. Null: nobody else is there.
+void start_together(const Ranks* ranks);
+
+/// What is printed from here on is not seen: of several ranks only 0 speaks.
+void fall_silent();
 
 /// As long as it lives, at most so many threads work; 0: as many as there are cores.
 class ThreadLimit {

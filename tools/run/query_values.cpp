@@ -8,6 +8,7 @@
 
 #include "interp/estimator_spec.hpp"
 #include "interp/plan/estimator_choice.hpp"
+#include "interp/plan/shared_estimates.hpp"
 #include "tess/barrier/query/model_bounds.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
@@ -19,6 +20,25 @@ namespace {
 /// Rows are estimated and written so many at a time.
 constexpr std::size_t batch_size = 65536;
 constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// The model's own estimator, or the one that was asked for.
+class AskedEstimator {
+  public:
+    AskedEstimator(const ModelSnapshot& opened, const QueryArguments& a) {
+        if (a.estimator.empty()) {
+            estimator_ = a.no_deviation ? &opened.estimator() : &opened.estimator_with_errors();
+            return;
+        }
+        other_.emplace(opened.model(), opened.barriers(), with_open_chosen(parse_estimator(a.estimator)), nullptr,
+                       ModelEstimatorOptions{.uncertainty = !a.no_deviation});
+        estimator_ = &*other_;
+    }
+    [[nodiscard]] const ModelEstimator& get() const { return *estimator_; }
+
+  private:
+    std::optional<ModelEstimator> other_;
+    const ModelEstimator* estimator_ = nullptr;
+};
 
 class ValueQueries {
   public:
@@ -39,14 +59,8 @@ class ValueQueries {
     }
 
     void run() {
-        std::optional<ModelEstimator> other;
-        if (!arguments_.estimator.empty()) {
-            other.emplace(model_, opened_.barriers(), with_open_chosen(parse_estimator(arguments_.estimator)), nullptr,
-                          ModelEstimatorOptions{.uncertainty = !arguments_.no_deviation});
-        }
-        const ModelEstimator& estimator = other                     ? *other
-                                          : arguments_.no_deviation ? opened_.estimator()
-                                                                    : opened_.estimator_with_errors();
+        const AskedEstimator asked(opened_, arguments_);
+        const ModelEstimator& estimator = asked.get();
         sink_.begin(columns());
         for (std::size_t begin = 0; begin < points_.positions.size(); begin += batch_size) {
             sink_.add(rows(begin, std::min(begin + batch_size, points_.positions.size()), estimator));
@@ -92,7 +106,8 @@ class ValueQueries {
                 queries.push_back({p, -1, static_cast<std::int8_t>(arguments_.side == "-" ? -1 : 1)});
             }
         }
-        const auto estimates = estimator.estimates(queries);
+        const auto estimates = arguments_.ranks == nullptr ? estimator.estimates(queries)
+                                                           : shared_estimates(estimator, queries, *arguments_.ranks);
         std::vector<Row> rows(end - begin);
         for (std::size_t row = begin; row < end; ++row) {
             Row& out = rows[row - begin];
@@ -160,7 +175,14 @@ class ValueQueries {
 }  // namespace
 
 void query_values(const ModelSnapshot& model, const QueryArguments& a, RowSink& sink, QueryRemarks& remarks) {
+    if (a.ranks != nullptr && !a.ranks->is_root()) {
+        serve_estimates(AskedEstimator(model, a).get(), *a.ranks);
+        return;
+    }
     ValueQueries(model, a, sink, remarks).run();
+    if (a.ranks != nullptr) {
+        end_serving(*a.ranks);
+    }
 }
 
 }  // namespace terratet::tools

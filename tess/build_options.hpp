@@ -25,7 +25,7 @@ struct BuildOptions {
     Criteria criteria;  ///< l_min 0: the data's diagonal/100, those far off left out (site_box.hpp); l_max 0: 4 l_min
     /// Chooses a tolerance for each property, where neither l_min nor a tolerance nor a df_max is given and density is
     /// canonical.
-    bool default_tolerance = false;
+    bool default_tolerance = true;
     /// What noise the estimator leaves in a property's field once it is fitted, in the property's scale; infinity where
     /// its field is no matter of cells (nearest). Empty: none.
     std::function<double(const Property&)> estimator_noise;

@@ -43,6 +43,11 @@ struct RefineOptions {
     bool candidates = true;                   ///< rule 4: try points around a circumcentre that would make a flat star
     bool clean_up = true;                     ///< rule 6: move or remove inserted vertices of slivers and tiny cells
     bool residuals = true;                    ///< false leaves the residual criterion to the clean-up
+    /// With a tolerance l_min between samples goes down from l_min to Criteria::l_min_between by steps of √2, and stops
+    /// With a tolerance l_min between samples goes down from l_min to Criteria::l_min_between by steps of √2. It stops
+    /// before a step that is thought to take more vertices in all than these, or when the cells left to be off hold
+    /// less than a thousandth of the box. 0: at the end alone.
+    std::uint64_t enough_vertices = 0;
     Progress progress;
 };
 
@@ -52,6 +57,8 @@ struct RefineReport {
     std::uint64_t removed = 0;                ///< by the clean-up
     std::uint64_t estimates = 0;              ///< places at which the values were asked for
     double bound = 0;                         ///< R1
+    double l_min_between = 0;                 ///< what the steps came to
+    bool stopped = false;                     ///< by the number of vertices
     std::map<Reason, std::uint64_t> skipped;  ///< bad cells left, by reason
 };
 

@@ -240,6 +240,11 @@ ChosenEstimator EstimatorChooser::choose(const EstimatorSpec& asked) {
     std::vector<LeftOutScore> scores;
     scores.reserve(32);  // the first is referred to
     const double plain = candidates().front().quick;
+    if (asked.name != "auto" && shortlist(1).empty()) {
+        out.choice.folds = scores_.folds();
+        out.trials.push_back({out.spec, plain});
+        return out;
+    }
     out.trials.push_back(trial(out.spec, plain, nullptr, scores.emplace_back()));
     const LeftOutScore& base = scores.front();
     if (asked.name != "auto") {

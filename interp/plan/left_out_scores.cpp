@@ -20,6 +20,7 @@ namespace terratet {
 namespace {
 
 constexpr Neighbourhood near_by{.max_points = 12, .per_borehole = 3};
+constexpr std::size_t looked_at_max = 500;  // besides those of the target's own borehole
 
 SampledValues picked(const SampledValues& from, std::span<const std::uint32_t> which) {
     SampledValues out{{}, {}, {}, from.kind};
@@ -173,6 +174,14 @@ LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_
     const SiteTree tree(places, data_.boreholes);
     const auto asked = some(std::min(targets, targets_));  // fewer of them are a part of all
     const auto all = some(targets_);
+    const auto boreholes = folds_of(data_.sites, data_.boreholes);
+    std::vector<std::size_t> most(folds_.size(), 0);  // that boreholes of other folds may give
+    for (std::size_t b = 0; b < boreholes.size(); ++b) {
+        const bool is_loose = data_.boreholes[boreholes[b].front()] < 0;
+        for (std::size_t f = 0; f < folds_.size(); ++f) {
+            most[f] += f == b % folds_.size() ? 0 : is_loose ? boreholes[b].size() : std::size_t{near_by.per_borehole};
+        }
+    }
     if (barriers_ != nullptr && sight_.empty()) {
         sight_.assign(all.size() * places.size(), unknown);
     }
@@ -191,8 +200,11 @@ LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_
             return borehole_of_[j] % folds_.size() != borehole_of_[i] % folds_.size() &&
                    (barriers_ == nullptr || in_sight(j));
         };
+        Neighbourhood limits = near_by;
+        limits.max_points = std::min(limits.max_points, most[borehole_of_[i] % folds_.size()]);
+        limits.max_looked_at = looked_at_max + boreholes[borehole_of_[i]].size();
         thread_local std::vector<NearSite> near;
-        tree.neighbourhood(places[i], near_by, usable, near);
+        tree.neighbourhood(places[i], limits, usable, near);
         std::vector<SiteWeight> terms;
         double total = 0;
         for (const auto& [squared_distance, site, slot] : near) {

@@ -13,6 +13,7 @@
 
 #include "tess/base/box_tree.hpp"
 #include "tess/base/sight.hpp"
+#include "tess/base/slab.hpp"
 
 namespace terratet {
 namespace {
@@ -34,38 +35,20 @@ double squared_distance_to(const Box3& box, const Vec3& p) {
     return squared_distance(p, box.clamped(p));
 }
 
-/// Two parallel planes with the surface between them: sheets are rather flat, and most segments are on one side.
-struct Slab {
-    Vec3 origin, normal;
-    double lo = std::numeric_limits<double>::infinity();
-    double hi = -std::numeric_limits<double>::infinity();
-
-    explicit Slab(const std::vector<Corners>& triangles) {
-        for (const auto& [a, b, c] : triangles) {
-            normal = normal + cross(b - a, c - a);
-        }
-        origin = triangles.front()[0];
-        const double scale = length(normal);
-        normal = scale > 0 ? normal / scale : Vec3{0, 0, 1};
-        for (const auto& corners : triangles) {
-            for (const Vec3& p : corners) {
-                const double height = dot(normal, p - origin);
-                lo = std::min(lo, height - rounding(p));
-                hi = std::max(hi, height + rounding(p));
-            }
+/// \pre not empty
+Slab slab_of(const std::vector<Corners>& triangles) {
+    Vec3 normal;
+    for (const auto& [a, b, c] : triangles) {
+        normal = normal + cross(b - a, c - a);
+    }
+    Slab slab(triangles.front()[0], normal);
+    for (const auto& corners : triangles) {
+        for (const Vec3& p : corners) {
+            slab.extend(p);
         }
     }
-    /// More than the height of p may be off.
-    [[nodiscard]] double rounding(const Vec3& p) const {
-        return 1e-14 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + std::abs(origin.x) + std::abs(origin.y) +
-                        std::abs(origin.z));
-    }
-    [[nodiscard]] bool beside(const Vec3& a, const Vec3& b) const {
-        const double height_a = dot(normal, a - origin), height_b = dot(normal, b - origin);
-        const double slack = rounding(a) + rounding(b);
-        return std::min(height_a, height_b) > hi + slack || std::max(height_a, height_b) < lo - slack;
-    }
-};
+    return slab;
+}
 
 std::vector<Corners> with_area(std::span<const Vec3> points, std::span<const Triangle> given) {
     std::vector<Corners> triangles;
@@ -82,7 +65,7 @@ std::vector<Corners> with_area(std::span<const Vec3> points, std::span<const Tri
 
 struct TriangleTree::Impl {
     explicit Impl(std::vector<Corners> all)
-        : slab(all),
+        : slab(slab_of(all)),
           tree(
               std::move(all), leaf_size,
               [](auto& node, const Corners& c) {
@@ -160,18 +143,23 @@ TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 
 bool TriangleTree::meets(const Vec3& a, const Vec3& b) const {
-    if (!impl_ || impl_->slab.beside(a, b)) {
+    const auto piece = impl_ ? impl_->slab.piece(a, b) : std::nullopt;
+    if (!piece) {
         return false;
     }
     if (a == b) {
         return impl_->any([&](const Box3& box) { return !box.contains(a); },
                           [p = point(a)](const Corners& c) { return CGAL::do_intersect(triangle(c), p); });
     }
-    const Sight sight(a, b);
+    const Sight sight(piece->first, piece->second);
     return impl_->any([&](const Box3& box) { return sight.misses(box); },
                       [segment = Kernel::Segment_3(point(a), point(b))](const Corners& c) {
                           return CGAL::do_intersect(triangle(c), segment);
                       });
+}
+
+Vec3 TriangleTree::mean_normal() const {
+    return impl_ ? impl_->slab.normal() : Vec3{};
 }
 
 double TriangleTree::distance_to(const Vec3& p) const {

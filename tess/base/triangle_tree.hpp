@@ -27,6 +27,9 @@ class TriangleTree {
     /// Does the closed segment, or the point where a == b, meet a closed triangle? Exact. O(log n).
     [[nodiscard]] bool meets(const Vec3& a, const Vec3& b) const;
 
+    /// Of all triangles by their areas, of length 1; 0 without any.
+    [[nodiscard]] Vec3 mean_normal() const;
+
     /// To the nearest triangle; infinity without any. O(log n).
     [[nodiscard]] double distance_to(const Vec3& p) const;
 

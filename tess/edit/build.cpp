@@ -187,11 +187,13 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         if (options.refine_enabled) {
             RefineOptions refine_options = options.refine;
             refine_options.progress = progress;
+            refine_options.enough_vertices = enough_vertices(options, model);
             const double before = estimating;
             report.refine =
                 refine(tessellation, model.vertex_values, model.domain, model.frame, proximity, model.criteria,
                        model.properties, timed_source, refine_options, dropped_samples(model, proximity));
             report.seconds["refine"] -= estimating - before;
+            keep_l_min_between(model, report);
         }
         model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
         describe(*built, report);

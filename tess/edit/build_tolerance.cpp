@@ -17,6 +17,8 @@ namespace {
 constexpr double floor_share = 1e-4;    ///< of the diagonal
 constexpr double between_share = 1e-3;  ///< of the diagonal
 constexpr double poor_r2 = 0.9;
+constexpr std::uint64_t enough_by_default = 120'000;
+constexpr std::uint64_t enough_asked_for = 1'000'000;
 
 std::vector<double> tolerances(const Criteria& criteria) {
     std::vector<double> result;
@@ -74,11 +76,7 @@ void retain_samples(const BuildOptions& options, std::span<const std::uint32_t> 
         criteria.fine = trial(tolerances(criteria)).fine;
         return;
     }
-    SettledTolerance settled = settle_tolerance(samples, model.properties, trial);
-    for (std::size_t p = 0; p < model.properties.size(); ++p) {
-        criteria.variation[p].tolerance = settled.tolerance[p];
-    }
-    criteria.fine = std::move(settled.retention.fine);
+    criteria.fine = settle_retention(samples, model.properties, trial).fine;
 }
 
 void set_residual_limits(const BuildOptions& options, Model& model) {
@@ -87,6 +85,30 @@ void set_residual_limits(const BuildOptions& options, Model& model) {
         const double noise = options.estimator_noise ? options.estimator_noise(model.properties[p]) : 0;
         limits.residual = limits.tolerance > 0 && std::isfinite(noise) ? std::max(limits.tolerance, noise) : 0;
     }
+}
+
+std::uint64_t enough_vertices(const BuildOptions& options, const Model& model) {
+    const std::uint64_t given = options.refine.enough_vertices;
+    if (given > 0 || !model.criteria.has_residual() || options.criteria.l_min > 0 ||
+        options.criteria.l_min_between > 0) {
+        return given;
+    }
+    return chooses_tolerance(options) ? enough_by_default : enough_asked_for;
+}
+
+void keep_l_min_between(Model& model, BuildReport& report) {
+    if (report.refine.l_min_between > 0 && model.criteria.l_min_between > 0) {
+        model.criteria.l_min_between = report.refine.l_min_between;
+    }
+    if (!report.refine.stopped) {
+        return;
+    }
+    std::ostringstream note;
+    note.precision(4);
+    note << "vertices between samples keep " << model.criteria.l_min_between
+         << " from each other, or there would be too many: where the field asks for nearer ones it may be off by more "
+            "than the tolerance. A larger `tolerance` needs fewer; a smaller `l_min` with a `tolerance` allows more";
+    report.diagnostics.note(note.str());
 }
 
 std::function<double(const Property&)> stored_noise(const Model& model) {

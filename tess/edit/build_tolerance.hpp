@@ -23,6 +23,12 @@ void retain_samples(const BuildOptions& options, std::span<const std::uint32_t> 
 /// How far the field may be from the estimator, once that is known.
 void set_residual_limits(const BuildOptions& options, Model& model);
 
+/// RefineOptions::enough_vertices: 0 where l_min between samples is given.
+std::uint64_t enough_vertices(const BuildOptions& options, const Model& model);
+
+/// Keeps what l_min between samples came to, with a note where it went no further.
+void keep_l_min_between(Model& model, BuildReport& report);
+
 /// As a built model knows it, for BuildOptions. \pre The model outlives it.
 std::function<double(const Property&)> stored_noise(const Model& model);
 

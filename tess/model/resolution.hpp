@@ -41,6 +41,10 @@ class ResolutionField {
     /// Puts others in the place of the criteria's fine places.
     void set_fine(std::span<const FinePlace> places) { fine_ = GradedSizes(places); }
 
+    /// l_min of inserted vertices where neither overrides nor fine places say otherwise.
+    [[nodiscard]] double between() const { return between_; }
+    void set_between(double l_min) { between_ = l_min; }
+
     /// What the cell's longest edge must not exceed.
     [[nodiscard]] double l_max(const CellPoints& cell) const {
         return uniform() ? criteria_.l_max : l_max_by_part(cell);
@@ -65,7 +69,7 @@ class ResolutionField {
 
     const Criteria& criteria_;
     const Domain& domain_;
-    double between_;  ///< l_min of inserted vertices where neither overrides nor fine places say otherwise
+    double between_;
     GradedSizes fine_;
     std::unique_ptr<Blocks> blocks_;  ///< null when no override needs them
 };

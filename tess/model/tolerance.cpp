@@ -125,26 +125,27 @@ Vec3 common_trend(const Property& property, std::span<const Vec3> positions, std
     return is_finite(trend) && dot(trend, right) >= telling * variance ? trend : Vec3{};
 }
 
-SettledTolerance settle_tolerance(const Samples& samples, std::span<const Property> properties, const Trial& trial) {
+Retention settle_retention(const Samples& samples, std::span<const Property> properties, const Trial& trial) {
     std::vector<Bounds> bounds;
-    SettledTolerance settled;
+    std::vector<double> tolerance;
     for (std::size_t p = 0; p < properties.size(); ++p) {
         bounds.push_back(bounds_of(properties[p], samples.values[p]));
-        settled.tolerance.push_back(bounds.back().largest);
+        tolerance.push_back(bounds.back().largest);
     }
-    for (bool lower = true; lower;) {
-        settled.retention = trial(settled.tolerance);
-        lower = false;
+    while (true) {
+        Retention retention = trial(tolerance);
+        bool enough = true;
         for (std::size_t p = 0; p < properties.size(); ++p) {
-            const auto& [r2, rich] = settled.retention.agreement[p];
-            double& tolerance = settled.tolerance[p];
-            if (tolerance > bounds[p].smallest && (r2 < enough_r2 || std::abs(rich - 1) > enough_rich)) {
-                tolerance = std::max(bounds[p].smallest, tolerance / std::numbers::sqrt2);
-                lower = true;
+            const auto& [r2, rich] = retention.agreement[p];
+            if (tolerance[p] > bounds[p].smallest && (r2 < enough_r2 || std::abs(rich - 1) > enough_rich)) {
+                tolerance[p] = std::max(bounds[p].smallest, tolerance[p] / std::numbers::sqrt2);
+                enough = false;
             }
         }
+        if (enough) {
+            return retention;
+        }
     }
-    return settled;
 }
 
 }  // namespace terratet

@@ -16,23 +16,20 @@ namespace terratet {
 /// for a category or without two different values.
 double tolerance_of_range(const Property& property, std::span<const double> values, double percent);
 
-/// What settle_tolerance starts from. 0 for a category or without two different values.
+/// Half the standard deviation: the tolerance where none is asked for. 0 for a category or without two different
+/// values.
 double largest_tolerance(const Property& property, std::span<const double> values);
 
 /// What retention makes of tolerances, one a property.
 using Trial = std::function<Retention(std::span<const double> tolerance)>;
 
-struct SettledTolerance {
-    std::vector<double> tolerance;  ///< by property; 0: a category, or no spread
-    Retention retention;            ///< with them
-};
-
 /// The gradient of the plane that the samples follow, in the property's scale; 0 where it explains less than half of
 /// their variance, or for a category.
 Vec3 common_trend(const Property& property, std::span<const Vec3> positions, std::span<const double> values);
 
-/// The largest tolerances, at most half the standard deviation and at least a quarter of the robust one (2 % of the
-/// plain one), with which what is kept explains 97 % of each property's variance, and its richest hundredth within 8 %.
-SettledTolerance settle_tolerance(const Samples& samples, std::span<const Property> properties, const Trial& trial);
+/// With the largest tolerances, at most half the standard deviation and at least a quarter of the robust one (2 % of
+/// the plain one), with which what is kept explains 97 % of each property's variance, and its richest hundredth within
+/// 8 %: no more samples than that takes. Nothing is refined to find out.
+Retention settle_retention(const Samples& samples, std::span<const Property> properties, const Trial& trial);
 
 }  // namespace terratet

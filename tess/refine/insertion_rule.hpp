@@ -83,6 +83,9 @@ class InsertionRule {
 
     [[nodiscard]] const ResolutionField& resolution() const { return resolution_; }
 
+    /// Another l_min between the samples (ResolutionField::between).
+    void set_between(double l_min) { resolution_.set_between(l_min); }
+
   private:
     [[nodiscard]] double size_violation(const JudgedCell& cell) const;
     [[nodiscard]] double shape_violation(const JudgedCell& cell) const;

@@ -11,10 +11,12 @@
 #include "tess/mesh/gap_cell.hpp"
 #include "tess/refine/cell_queue.hpp"
 #include "tess/refine/clean_up.hpp"
+#include "tess/refine/coarse_cells.hpp"
 #include "tess/refine/insertion_rule.hpp"
 #include "tess/refine/live_cell.hpp"
 #include "tess/refine/live_vertices.hpp"
 #include "tess/refine/residual.hpp"
+#include "tess/refine/star_facet.hpp"
 #include "tess/refine/touched_cells.hpp"
 
 namespace terratet {
@@ -37,6 +39,9 @@ constexpr std::size_t largest_batch = 1024;
 constexpr std::size_t smallest_batch = 64;
 constexpr std::size_t batches_in_mesh = 32;
 
+/// Of the hull box: what is left to be off in fewer places than T1 allows is not worth a step.
+constexpr double small_share = 1e-3;
+
 class Refiner {
   public:
     Refiner(Tessellation& tessellation, VertexValues& values, const Domain& domain, const Frame& frame,
@@ -48,13 +53,14 @@ class Refiner {
           residuals_(criteria, frame, properties, values, source, dropped),
           criteria_(criteria),
           frame_(frame),
+          hull_(domain.hull),
           options_(options),
           vertices_(core_, values, source, criteria.has_variation(), options.max_vertices, criteria.l_min,
                     rule_.resolution().packing_bound()),
-          smallest_squared_radius_(rule_.resolution().smallest_l_min() * rule_.resolution().smallest_l_min()),
+          last_between_(rule_.resolution().between()),
           tests_residuals_(options.residuals && residuals_.active()),
           has_barriers_(!barriers.empty()) {
-        report_.bound = rule_.resolution().packing_bound();
+        set_smallest_radius();
         for (const Vertex& vertex : core_.vertices) {
             rule_.note_vertex(vertex.position);
         }
@@ -63,6 +69,9 @@ class Refiner {
     RefineReport run(const Touched* touched = nullptr) {
         touched_ = touched;
         if (touched == nullptr) {
+            if (tests_residuals_) {
+                begin_coarse();
+            }
             queue_all();
         } else if (core_.triangulation.dimension() == 3) {
             first_new_ = static_cast<std::uint32_t>(core_.vertices.size());
@@ -70,14 +79,18 @@ class Refiner {
         }
         do {
             do {
-                while (const auto bad = queue_.pop()) {
-                    if (++treated_ % 256 == 0) {
-                        tell();
+                do {
+                    while (const auto bad = queue_.pop()) {
+                        if (++treated_ % 256 == 0) {
+                            tell();
+                        }
+                        treat(*bad);
                     }
-                    treat(*bad);
-                }
-            } while (test_some());
-        } while (retry());
+                } while (test_some());
+            } while (retry());
+        } while (finer());
+        report_.bound = rule_.resolution().packing_bound();
+        report_.l_min_between = rule_.resolution().between();
         if (options_.clean_up) {
             clean_up();
         }
@@ -87,6 +100,43 @@ class Refiner {
     }
 
   private:
+    /// By steps it is seen what a finer one takes before it is tried, and the mesh is the same whether the last one was
+    /// known or found.
+    void begin_coarse() {
+        if (rule_.resolution().between() < criteria_.l_min) {
+            rule_.set_between(criteria_.l_min);
+            set_smallest_radius();
+        }
+    }
+
+    void set_smallest_radius() {
+        const double smallest = rule_.resolution().smallest_l_min();
+        smallest_squared_radius_ = smallest * smallest;
+    }
+
+    /// Queues what a finer l_min between samples lets in. False at the end.
+    bool finer() {
+        const double now = rule_.resolution().between();
+        if (touched_ != nullptr || core_.triangulation.dimension() < 3 || now <= last_between_) {
+            return false;
+        }
+        const double next = std::max(last_between_, now / std::numbers::sqrt2);
+        CoarseCells coarse = coarse_cells(core_, rule_, hull_, next);
+        const std::uint64_t enough = options_.enough_vertices;
+        report_.stopped = enough > 0 && core_.vertices.size() + coarse.vertices_expected > enough;
+        if (report_.stopped || (enough > 0 && coarse.varying_volume < small_share * hull_.volume())) {
+            return false;
+        }
+        rule_.set_between(next);
+        set_smallest_radius();
+        add_existing(std::exchange(at_boundary_, {}), coarse.cells);
+        add_existing(std::exchange(refused_, {}), coarse.cells);
+        std::ranges::sort(coarse.cells, {}, [](const Cell& cell) { return &*cell; });
+        coarse.cells.erase(std::unique(coarse.cells.begin(), coarse.cells.end()), coarse.cells.end());
+        queue_bad(coarse.cells);  // in an order of its own
+        return true;
+    }
+
     void queue_all() {
         auto& triangulation = core_.triangulation;
         if (triangulation.dimension() < 3) {
@@ -174,18 +224,21 @@ class Refiner {
         }
         inserted_before_retry_ = report_.inserted;
         std::vector<Cell> cells;
-        for (const auto& v : std::exchange(at_boundary_, {})) {
+        add_existing(std::exchange(at_boundary_, {}), cells);
+        queue_bad(cells);
+        return true;
+    }
+
+    using Corners = std::array<delaunay::VertexHandle, 4>;  // of a cell that may be gone by the time it is asked for
+    static Corners corners(Cell cell) { return {cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)}; }
+
+    void add_existing(const std::vector<Corners>& all, std::vector<Cell>& cells) const {
+        for (const auto& v : all) {
             Cell cell;
             if (core_.triangulation.is_cell(v[0], v[1], v[2], v[3], cell)) {
                 cells.push_back(cell);
             }
         }
-        queue_bad(cells);
-        return true;
-    }
-
-    void put_off(Cell cell) {
-        at_boundary_.push_back({cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
     }
 
     void treat(const CellQueue::Entry& bad) {
@@ -199,11 +252,16 @@ class Refiner {
             }
             const auto instead = rule_.instead_of_split(judged_cell);
             if (!instead || !find_zone(*instead, cell, zone_)) {
-                return put_off(cell);
+                at_boundary_.push_back(corners(cell));
+                return;
             }
             return insert(zone_);
         }
-        if (proposal.reason != Reason::none || !find_zone(proposal.point, cell, zone_)) {
+        if (proposal.reason != Reason::none) {
+            return;
+        }
+        if (!find_zone(proposal.point, cell, zone_)) {
+            refused_.push_back(corners(cell));
             return;
         }
         if (options_.candidates) {
@@ -286,26 +344,6 @@ class Refiner {
 
     [[nodiscard]] bool is_infinite(const Facet& facet) const { return core_.triangulation.is_infinite(facet); }
 
-    using FacetCorners = std::array<Vec3, 3>;
-    static FacetCorners facet_corners(const Facet& facet) {
-        FacetCorners corners;
-        for (int k = 1; k < 4; ++k) {
-            corners[static_cast<std::size_t>(k - 1)] =
-                delaunay::from_cgal(facet.first->vertex((facet.second + k) & 3)->point());
-        }
-        return corners;
-    }
-
-    static bool clear_of(const FacetCorners& corners, const Vec3& point, double squared_limit) {
-        return std::ranges::none_of(
-            corners, [&](const Vec3& corner) { return squared_distance(corner, point) < squared_limit; });
-    }
-
-    /// Of the cell that an insertion would make over the facet.
-    static double star_sharpness(const FacetCorners& c, const Vec3& apex, double least, double enough) {
-        return cell_sharpness({apex, c[0], c[1], c[2]}, least, enough);
-    }
-
     void insert(const Zone& zone) {
         for (const Cell cell : zone.cells) {
             queue_.forget(cell);
@@ -362,9 +400,11 @@ class Refiner {
     ResidualTest residuals_;
     const Criteria& criteria_;
     const Frame& frame_;
+    const Box3& hull_;
     const RefineOptions& options_;
     LiveVertices vertices_;
-    double smallest_squared_radius_;
+    double smallest_squared_radius_ = 0;
+    double last_between_;  ///< where the steps of l_min end
     bool tests_residuals_;
     bool has_barriers_;
     CellQueue queue_;
@@ -372,7 +412,8 @@ class Refiner {
     std::vector<std::optional<Estimate>> estimates_;  ///< by slot of the queue
     std::optional<Estimate> known_;                   ///< of the cell under treatment
     RefineReport report_;
-    std::vector<std::array<delaunay::VertexHandle, 4>> at_boundary_;  ///< bad cells whose split is not allowed
+    std::vector<Corners> at_boundary_;  ///< bad cells whose split is not allowed
+    std::vector<Corners> refused_;      ///< whose vertex would come too near
     std::uint64_t inserted_before_retry_ = 0;
     std::uint64_t treated_ = 0;
     double told_ = 0;

@@ -217,6 +217,24 @@ TEST_CASE("A choice is kept with the plan: the same bits again, and nothing is c
     CHECK(kept.plan().of("v").to_string() == stored.of("v").to_string());
 }
 
+TEST_CASE("An isotropic choice is kept with the plan, too, though other samples would have it otherwise") {
+    const auto layered = seam();
+    Model plain = model_of(layered);
+    const RandomField field(80, 80, 52);
+    for (std::size_t i = 0; i < layered.sites.size(); ++i) {
+        plain.samples.values[0][i] = field(layered.sites[i]);
+    }
+    const EstimatorPlan stored =
+        parse_estimator_plan(ModelEstimator(plain, no_faults(), open_plan("natural")).plan().to_string());
+    REQUIRE(stored.choices.at("v").folds == 5);
+    REQUIRE(anisotropy_of(stored.of("v")).isotropic());
+    const Model edited = model_of(layered);
+    REQUIRE_FALSE(anisotropy_of(ModelEstimator(edited, no_faults(), open_plan("natural")).plan().of("v")).isotropic());
+    const ModelEstimator kept(edited, no_faults(), with_open_chosen(stored));
+    CHECK(anisotropy_of(kept.plan().of("v")).isotropic());
+    CHECK(kept.plan().choices.at("v").rms == stored.choices.at("v").rms);
+}
+
 TEST_CASE("Anisotropy that is given, or none, is left as it is") {
     for (const std::string spec :
          {"natural:anisotropy=none", "idw:ratio3=0.5", "kriging:azimuth=20", "linear:roll=3"}) {

@@ -171,10 +171,38 @@ TEST_CASE("R7: refining to a tolerance again inserts, moves and removes nothing,
     }
 }
 
+TEST_CASE("l_min between samples goes down by steps until there are enough vertices, is kept, and is come to again") {
+    testing::World world = world_of(7, layered, 0.05);
+    world.site.surfaces.clear();
+    BuildReport all;
+    const auto fine = built(world, layered, all);
+    CHECK_FALSE(all.refine.stopped);
+    CHECK(all.refine.l_min_between == world.options.criteria.l_min_between);
+    world.options.refine.enough_vertices = fine->model.vertices.size() / 3;
+    BuildReport report;
+    const auto made = built(world, layered, report);
+    const double l_min = made->model.criteria.l_min_between;
+    CHECK(report.refine.stopped);
+    CHECK(l_min > world.options.criteria.l_min_between);
+    CHECK(l_min < world.options.criteria.l_min);
+    CHECK(made->model.vertices.size() <= fine->model.vertices.size() / 2);
+    CHECK(report.refine.skipped.at(Reason::too_close) > 0);
+    CHECK(std::ranges::any_of(report.diagnostics.notes, [](const std::string& note) {
+        return note.find("vertices between samples keep") != note.npos;
+    }));
+    for (const Verdict& verdict : verify(made->model, source_of(layered))) {  // R6 and R7 among them
+        INFO(verdict.guarantee << " " << verdict.detail);
+        CHECK(verdict.holds);
+    }
+    world.options.criteria.l_min_between = l_min;
+    world.options.refine.enough_vertices = 0;
+    BuildReport again;
+    CHECK(built(world, layered, again)->model.vertices == made->model.vertices);
+}
+
 TEST_CASE("Where nothing is given a tolerance is chosen; l_min alone keeps its old meaning and says what it lost") {
     testing::World world = world_of(7, layered, 0);
     world.options.criteria = {};
-    world.options.default_tolerance = true;
     BuildReport report;
     const auto chosen = built(world, layered, report);
     CHECK(chosen->model.criteria.variation[0].tolerance > 0);

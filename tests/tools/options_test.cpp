@@ -42,6 +42,7 @@ TEST_CASE("Lengths are read in the unit of the model, whatever unit they carry")
 TEST_CASE("What is not given is left to the floor below") {
     const BuildOptions options = build_options({}, site_in_feet());
     CHECK(options.criteria == Criteria{});
+    CHECK(options.default_tolerance);
     CHECK(options.pad < 0);
     CHECK(options.extent.empty());
     CHECK(options.barriers.spacing == 0);

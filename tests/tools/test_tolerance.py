@@ -44,11 +44,20 @@ class Tolerance(Case):
         self.assertIsNone(coarse["fidelity"]["au"]["beyond_tolerance"])
         self.assertIn("--tolerance au=", told)
 
-    def test_is_chosen_when_asked_for(self):
-        report, told = self.build("--tolerance", "auto")
-        self.assertIn("tolerance", report["defaults"])
-        self.assertGreater(report["fidelity"]["au"]["r2"], 0.95)
-        self.assertIn("Defaults  --tolerance au=", told)
+    def test_is_chosen_where_none_of_tolerance_lmin_and_df_max_is_given(self):
+        for options in ([], ["--tolerance", "auto"]):
+            report, told = self.build(*options)
+            self.assertIn("tolerance", report["defaults"])
+            self.assertGreater(report["fidelity"]["au"]["r2"], 0.95)
+            self.assertAlmostEqual(report["fidelity"]["au"]["tolerance"], report["fidelity"]["au"]["sd"] / 2, places=3)
+            self.assertIn("Defaults  --tolerance au=", told)
+            digest = self.succeed("info", "--digest", "m.gpkg").stdout
+            if options:
+                self.assertEqual(digest, by_default)
+            by_default = digest
+        for options in (["--lmin", "10"], ["--df-max", "au=2"], ["--density", "paper"]):
+            report, told = self.build(*options)
+            self.assertIsNone(report["fidelity"]["au"]["tolerance"])
 
     def test_refuses_what_makes_no_sense(self):
         self.build("--lmin", "10")

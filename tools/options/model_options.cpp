@@ -222,9 +222,8 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
          {
              {{"tolerance"},
               "P=T",
-              "how far property P may be off (decades if P:log10); P=10% of its range, 10% for all; auto: as much as "
-              "keeps "
-              "the samples' variance, without --lmin and --df-max",
+              "how far property P may be off (decades if P:log10); P=10% of its range, 10% for all; auto: half the "
+              "standard deviation, and samples that keep their variance: the default without --lmin and --df-max",
               &a.tolerance},
              {{"lmin"},
               "LENGTH",
@@ -402,7 +401,7 @@ BuildOptions build_options(const ModelArguments& a, const Site& site) {
     }
     set_limits("--df-min", a.df_min, &VariationLimits::df_min, site.properties, options.criteria);
     set_limits("--df-max", a.df_max, &VariationLimits::df_max, site.properties, options.criteria);
-    options.default_tolerance = std::ranges::any_of(a.tolerance, is_automatic);
+    options.default_tolerance = a.tolerance.empty() || std::ranges::any_of(a.tolerance, is_automatic);
     set_tolerances(a.tolerance, site, options.criteria);
     validate_given(options.criteria);
     options.density = density_mode(a.density);

@@ -180,9 +180,10 @@ Json choices_json(const Model& model) {
     Json choices = Json::object();
     const EstimatorPlan plan = parse_estimator_plan(model.estimator);
     for (const auto& [property, choice] : plan.choices) {
+        const auto tried = [](double rms) { return rms > 0 ? Json(rms) : Json(); };
         choices[property] = {{"estimator", plan.of(property).as_given()},
-                             {"rms", choice.rms},
-                             {"rms_plain", choice.rms_plain},
+                             {"rms", tried(choice.rms)},
+                             {"rms_plain", tried(choice.rms_plain)},
                              {"better_folds", choice.better_folds},
                              {"folds", choice.folds}};
     }

@@ -120,6 +120,9 @@ std::string choice_text(const EstimatorSpec& spec, const EstimatorChoice& choice
     if (choice.folds == 0) {
         return what + " (too few samples or boreholes to choose)";
     }
+    if (choice.rms == 0 && choice.better_folds == 0) {
+        return what + ": no other is better at left-out boreholes";
+    }
     if (choice.better_folds == 0) {
         return what + fmt::format(": nothing tried is clearly better at left-out boreholes (rms {:.3g})", choice.rms);
     }

@@ -165,7 +165,7 @@ std::string suggestion_text(const ChosenEstimator& suggestion, const Property& p
                                   classes ? "wrong %" : "RMSE", "folds", "by idw");
     for (const auto& trial : suggestion.trials) {
         const auto shown = [&](double rms) { return classes ? percent(rms * rms) : cell(rms); };
-        out += fmt::format("  {:<60}{:>9}{:>8}{:>9}\n", trial.spec.as_given(), shown(*trial.rms),
+        out += fmt::format("  {:<60}{:>9}{:>8}{:>9}\n", trial.spec.as_given(), trial.rms ? shown(*trial.rms) : "-",
                            &trial == &suggestion.trials.front()
                                ? "-"
                                : fmt::format("{} of {}", trial.better_folds, suggestion.choice.folds),
@@ -184,7 +184,7 @@ Json suggestion_json(const ChosenEstimator& suggestion) {
     Json trials = Json::array();
     for (const auto& trial : suggestion.trials) {
         trials.push_back({{"estimator", trial.spec.as_given()},
-                          {"rms", *trial.rms},
+                          {"rms", trial.rms ? Json(*trial.rms) : Json()},
                           {"better_folds", trial.better_folds},
                           {"rms_by_idw", trial.quick}});
     }

@@ -3,8 +3,7 @@
 #include "tess/barrier/complex/rims.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <optional>
 
 #include "tess/base/sight.hpp"
 
@@ -15,70 +14,41 @@ constexpr std::uint32_t leaf_size = 8;
 
 }  // namespace
 
-void FreeRims::add(const std::vector<EdgePlace>& rims, double spacing) {
-    for (const auto& [from, to] : rims) {
-        if (spacing > 0) {
-            edges_.push_back({from, to, spacing});
-        }
-    }
-}
-
-void FreeRims::finish() {
-    if (!edges_.empty()) {
-        split(0, static_cast<std::uint32_t>(edges_.size()));
-    }
-}
-
-void FreeRims::split(std::uint32_t begin, std::uint32_t end) {
-    const auto here = nodes_.size();
-    Node& node = nodes_.emplace_back(Node{{}, begin, end, 0});
-    for (std::uint32_t i = begin; i < end; ++i) {
-        Box3 box;
-        box.extend(edges_[i].from);
-        box.extend(edges_[i].to);
-        box = box.grown(edges_[i].spacing);
-        node.box.extend(box.lo);
-        node.box.extend(box.hi);
-    }
-    if (end - begin <= leaf_size) {
+FreeRims::FreeRims(const std::vector<EdgePlace>& rims, double spacing, const Vec3& normal) : spacing_(spacing) {
+    if (rims.empty() || !(spacing > 0)) {
         return;
     }
-    const Vec3 size = node.box.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(
-        edges_.begin() + begin, edges_.begin() + middle, edges_.begin() + end,
-        [axis](const Edge& a, const Edge& b) { return a.from[axis] + a.to[axis] < b.from[axis] + b.to[axis]; });
-    split(begin, middle);
-    nodes_[here].right = static_cast<std::uint32_t>(nodes_.size());
-    split(middle, end);
+    slab_ = Slab(rims.front()[0], normal);
+    for (const EdgePlace& edge : rims) {
+        for (const Vec3& end : edge) {
+            slab_.extend(end);
+        }
+    }
+    tree_ = BoxTree<EdgePlace>(
+        rims, leaf_size,
+        [&](auto& node, const EdgePlace& edge) {
+            Box3 box;
+            box.extend(edge[0]);
+            box.extend(edge[1]);
+            box = box.grown(spacing);
+            node.box.extend(box.lo);
+            node.box.extend(box.hi);
+        },
+        [](const EdgePlace& edge, int axis) { return edge[0][axis] + edge[1][axis]; });
 }
 
-double FreeRims::clearance(const Vec3& a, const Vec3& b) const {
-    double least = 1;
-    if (nodes_.empty()) {
+double FreeRims::clearance(const Vec3& a, const Vec3& b, double least) const {
+    // What is farther off their slab than the spacing is farther from the rims.
+    const auto piece = tree_.items().empty() ? std::nullopt : slab_.piece(a, b, spacing_);
+    if (!piece) {
         return least;
     }
-    const Sight sight(a, b);
-    std::array<std::uint32_t, 64> stack;  // depth of a tree of halves
-    std::size_t waiting = 0;
-    stack[waiting++] = 0;
-    while (waiting > 0) {
-        const std::uint32_t at = stack[--waiting];
-        const Node& node = nodes_[at];
-        if (sight.misses(node.box)) {
-            continue;
-        }
-        if (node.right != 0) {
-            stack[waiting++] = node.right;
-            stack[waiting++] = at + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const Edge& edge = edges_[i];
-            least = std::min(least, segment_distance(a, b, edge.from, edge.to) / edge.spacing);
-        }
-    }
+    const Sight sight(piece->first, piece->second);
+    static_cast<void>(tree_.any([&](const auto& node) { return !sight.misses(node.box); },
+                                [&](const EdgePlace& edge) {
+                                    least = std::min(least, segment_distance(a, b, edge[0], edge[1]) / spacing_);
+                                    return false;
+                                }));
     return least;
 }
 

@@ -5,9 +5,10 @@
 /// The free rims of barriers, and how near a line of sight passes by them.
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
+#include "tess/base/box_tree.hpp"
+#include "tess/base/slab.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
@@ -15,35 +16,23 @@ namespace terratet {
 /// An edge's two ends.
 using EdgePlace = std::array<Vec3, 2>;
 
+/// Of one barrier.
 class FreeRims {
   public:
     FreeRims() = default;
 
-    /// \param spacing  of their barrier, the unit of distances from them; rims are left out where it is 0
-    void add(const std::vector<EdgePlace>& rims, double spacing);
+    /// \param spacing  of the barrier, the unit of distances from them; rims are left out where it is 0
+    /// \param normal   of the barrier's mean plane, which the rims are near to. O(n log n).
+    FreeRims(const std::vector<EdgePlace>& rims, double spacing, const Vec3& normal);
 
-    /// After the last one was added. O(n log n).
-    void finish();
-
-    /// The segment's distance from the nearest rim, each in units of its fault's spacing, but at most 1. O(log n) far
-    /// from rims.
-    [[nodiscard]] double clearance(const Vec3& a, const Vec3& b) const;
+    /// The segment's distance from the nearest rim in units of the spacing, but at most `least`, itself at most 1.
+    /// O(log n) far from rims.
+    [[nodiscard]] double clearance(const Vec3& a, const Vec3& b, double least = 1) const;
 
   private:
-    struct Edge {
-        Vec3 from, to;
-        double spacing;
-    };
-    struct Node {
-        Box3 box;  ///< of its edges, each grown by its spacing
-        std::uint32_t begin, end;
-        std::uint32_t right;  ///< the second child; the first follows at once; 0: a leaf
-    };
-
-    void split(std::uint32_t begin, std::uint32_t end);
-
-    std::vector<Edge> edges_;
-    std::vector<Node> nodes_;
+    BoxTree<EdgePlace> tree_;  ///< boxes grown by the spacing
+    double spacing_ = 0;
+    Slab slab_{{}, {}};
 };
 
 /// Between two closed segments (Ericson, Real-Time Collision Detection, 5.1.9).

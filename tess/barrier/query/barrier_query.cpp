@@ -72,6 +72,7 @@ struct Bar {
     const TriangleTree* sheet;
     TriangleTree beyond;
     std::vector<EdgePlace> rims;
+    FreeRims near_rims;
 };
 
 }  // namespace
@@ -81,13 +82,13 @@ struct BarrierQuery::Impl {
         : sheets(std::move(of)), covered(inner) {
         for (std::size_t f = 0; f < of_each.size(); ++f) {
             if (of_each[f].bars) {
-                bars.push_back({f, &sheets->trees[f],
+                bars.push_back({f,
+                                &sheets->trees[f],
                                 TriangleTree(of_each[f].beyond.vertices, of_each[f].beyond.triangles),
-                                of_each[f].rims});
-                rims.add(of_each[f].rims, sheets->barriers[f].spacing);
+                                of_each[f].rims,
+                                {of_each[f].rims, sheets->barriers[f].spacing, sheets->trees[f].mean_normal()}});
             }
         }
-        rims.finish();
     }
 
     [[nodiscard]] const TriangleTree& tree(std::int32_t barrier) const {
@@ -97,7 +98,6 @@ struct BarrierQuery::Impl {
 
     std::shared_ptr<const Sheets> sheets;
     std::vector<Bar> bars;
-    FreeRims rims;
     Box3 covered;                        ///< what goes on beyond a sheet stays out of it: a convex place
     std::unique_ptr<BarrierQuery> hard;  ///< with the horizons among the barriers
     std::vector<bool> hard_for;          ///< of each property
@@ -166,7 +166,14 @@ bool BarrierQuery::crosses_any(const Vec3& a, const Vec3& b, std::int32_t except
 }
 
 double BarrierQuery::openness(const Vec3& a, const Vec3& b) const {
-    return crosses_any(a, b) ? 0 : impl_->rims.clearance(a, b);
+    if (crosses_any(a, b)) {
+        return 0;
+    }
+    double least = 1;
+    for (const Bar& bar : impl_->bars) {
+        least = bar.near_rims.clearance(a, b, least);
+    }
+    return least;
 }
 
 bool BarrierQuery::bars(std::int32_t barrier) const {

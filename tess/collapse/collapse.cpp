@@ -218,7 +218,9 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     result.mesh.neighbours = std::move(split.neighbours);
     result.cells.region = std::move(split.regions);
     fill_cells(cells, image, std::move(states), result);
-    mend_collapsed(result);
+    if (std::ranges::any_of(cells.barrier, [](std::int32_t barrier) { return barrier >= 0; })) {
+        mend_collapsed(result);  // else nothing was cut
+    }
 
     CollapseReport& report = result.report;
     report.dropped_cells = static_cast<std::size_t>(std::ranges::count_if(

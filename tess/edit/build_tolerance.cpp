@@ -17,7 +17,7 @@ namespace {
 constexpr double floor_share = 1e-4;    ///< of the diagonal
 constexpr double between_share = 1e-3;  ///< of the diagonal
 constexpr double poor_r2 = 0.9;
-constexpr std::uint64_t enough_by_default = 300'000;
+constexpr std::uint64_t enough_by_default = 120'000;
 constexpr std::uint64_t enough_asked_for = 1'000'000;
 
 std::vector<double> tolerances(const Criteria& criteria) {

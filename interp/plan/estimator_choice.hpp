@@ -8,11 +8,11 @@
 /// of the boreholes nearest the middle. Candidates are planes: the level one, those along which neighbouring boreholes
 /// resemble each other most, the one that slopes of near samples tell (likely_planes.hpp), and what is best on a coarse
 /// half sphere; each with ratios from 0.5 to 0.02, and the slopes' own ratios. All are tried with inverse distance:
-/// where none gains a hundredth no tessellation is made, and the choice's rms stays 0. The three best that beat the isotropic one there are tried with the estimator itself, and the best of them is taken if
-/// its errors are at least 3 % smaller than the isotropic one's (rms), smaller in more than two thirds of the folds,
-/// and the mean gain of a borehole is three times its standard deviation (of fewer than eight boreholes: smaller in all
-/// folds). So a tessellation is made 20 times at most. Counts decide, never the clock; the order of samples is of no
-/// effect.
+/// where none gains a hundredth no tessellation is made, and the choice's rms stays 0. The three best that beat the
+/// isotropic one there are tried with the estimator itself, and the best of them is taken if its errors are at least 3
+/// % smaller than the isotropic one's (rms), smaller in more than two thirds of the folds, and the mean gain of a
+/// borehole is three times its standard deviation (of fewer than eight boreholes: smaller in all folds). So a
+/// tessellation is made 20 times at most. Counts decide, never the clock; the order of samples is of no effect.
 ///
 /// `auto` compares natural, natural:smooth, kriging and idw likewise: another than natural is taken only if it wins by
 /// as much.

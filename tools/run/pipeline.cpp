@@ -28,7 +28,8 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
             chosen.emplace_back(name, short_number(value));
         }
     };
-    for (std::size_t p = 0; p < model.properties.size() && std::ranges::any_of(a.tolerance, is_automatic); ++p) {
+    const bool tolerance_chosen = a.tolerance.empty() || std::ranges::any_of(a.tolerance, is_automatic);
+    for (std::size_t p = 0; p < model.properties.size() && tolerance_chosen; ++p) {
         const double tolerance = p < model.criteria.variation.size() ? model.criteria.variation[p].tolerance : 0;
         if (tolerance > 0) {
             chosen.emplace_back("tolerance", model.properties[p].name + "=" + short_number(tolerance));

@@ -24,9 +24,10 @@ class ModelSnapshot {
     explicit ModelSnapshot(Model model);
 
     /// As it was built or changed, with what that made; without `complete`, mesh and cells are made when they are asked
-    /// for. `estimator` is of that model and its barriers; null: by the model's plan, when it is asked for.
+    /// for. `estimator` is of that model and its barriers, or inherited from the state before
+    /// (estimator_of); null: by the model's plan, when it is asked for.
     ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
-                  bool complete = true);
+                  bool complete = true, bool inherited = false);
     ~ModelSnapshot();
     ModelSnapshot(const ModelSnapshot&) = delete;
     ModelSnapshot& operator=(const ModelSnapshot&) = delete;
@@ -46,6 +47,10 @@ class ModelSnapshot {
     /// out where the model does not say yet: seconds.
     [[nodiscard]] const ModelEstimator& estimator() const;
     [[nodiscard]] const ModelEstimator& estimator_with_errors() const;
+    /// The same for the next state, whose samples and barriers are these; it keeps what it reads alive.
+    /// \param self  this
+    [[nodiscard]] static std::shared_ptr<const ModelEstimator> estimator_of(
+        const std::shared_ptr<const ModelSnapshot>& self);
 
     /// The vertices next to a borehole's own in the Voronoi sense, ascending: whose cells share a wall with one of its
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).

@@ -48,17 +48,17 @@ bool has_uncertainty(const Model& model) {
 std::shared_ptr<ModelSnapshot> changed(const std::shared_ptr<const ModelSnapshot>& before, ModelPlan plan,
                                        ChangeReport& report, const Progress& progress, const RefineOptions& refine) {
     std::shared_ptr<const ModelEstimator> estimator;
+    bool inherited = false;
     const auto factory = [&](const Model& model, const BarrierQuery& barriers, bool same_values) -> ValueSource {
-        if (same_values) {
-            return [before](std::span<const ValueQuery> queries) { return before->estimator().values(queries); };
-        }
-        const EstimatorPlan fitted = parse_estimator_plan(model.estimator);
-        estimator = std::make_shared<const ModelEstimator>(model, barriers, fitted);
+        inherited = same_values;
+        estimator = same_values ? ModelSnapshot::estimator_of(before)
+                                : std::make_shared<const ModelEstimator>(model, barriers,
+                                                                         parse_estimator_plan(model.estimator));
         return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
     };
     auto made =
         change_model(before->model(), before->take_tessellation(), std::move(plan), factory, report, progress, refine);
-    return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator), false);
+    return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator), false, inherited);
 }
 
 /// With the options it was built with, but for what the plan says.

@@ -37,6 +37,7 @@ struct ModelSnapshot::Impl {
     std::unique_ptr<TessellatedModel> made;  ///< barriers, tessellation and cells may be missing
     EstimatorPlan plan;
     std::shared_ptr<const ModelEstimator> estimator;
+    bool inherited = false;  ///< the estimator: it is that of an earlier state, which it keeps alive
     std::unique_ptr<const ModelEstimator> with_errors;
     std::array<std::unique_ptr<const CollapsedModel>, 2> collapsed;  ///< all, bounds
     std::optional<bool> delaunay;
@@ -71,6 +72,14 @@ struct ModelSnapshot::Impl {
         return made->cells;
     }
 
+    const std::shared_ptr<const ModelEstimator>& plain_estimator() {
+        if (!estimator) {
+            estimator = std::make_shared<const ModelEstimator>(made->model, barriers(), plan);
+            inherited = false;
+        }
+        return estimator;
+    }
+
     const ModelEstimator& estimator_with_errors() {
         if (!with_errors) {
             with_errors = std::make_unique<const ModelEstimator>(made->model, barriers(), plan, nullptr,
@@ -87,11 +96,12 @@ ModelSnapshot::ModelSnapshot(Model model) : impl_(std::make_unique<Impl>()) {
 }
 
 ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
-                             bool complete)
+                             bool complete, bool inherited)
     : impl_(std::make_unique<Impl>()) {
     impl_->plan = estimator ? estimator->plan() : parse_estimator_plan(made->model.estimator);
     impl_->made = std::move(made);
     impl_->estimator = std::move(estimator);
+    impl_->inherited = inherited;
     impl_->tessellated = complete;
     impl_->described = complete;
 }
@@ -168,10 +178,13 @@ const CollapsedModel& ModelSnapshot::collapsed(Collapsing which) const {
 
 const ModelEstimator& ModelSnapshot::estimator() const {
     const std::lock_guard lock(impl_->mutex);
-    if (!impl_->estimator) {
-        impl_->estimator = std::make_shared<const ModelEstimator>(impl_->made->model, impl_->barriers(), impl_->plan);
-    }
-    return *impl_->estimator;
+    return *impl_->plain_estimator();
+}
+
+std::shared_ptr<const ModelEstimator> ModelSnapshot::estimator_of(const std::shared_ptr<const ModelSnapshot>& self) {
+    const std::lock_guard lock(self->impl_->mutex);
+    const auto& own = self->impl_->plain_estimator();
+    return self->impl_->inherited ? own : std::shared_ptr<const ModelEstimator>(self, own.get());
 }
 
 const ModelEstimator& ModelSnapshot::estimator_with_errors() const {

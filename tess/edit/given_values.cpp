@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/edit/given_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace terratet {
@@ -9,6 +10,13 @@ namespace {
 
 ValueQuery query_of(const Vertex& vertex) {
     return {vertex.position, vertex.role == Role::seed ? vertex.owner : -1, vertex.side};
+}
+
+/// Is there nothing to estimate?
+bool is_complete(const Model& model, const Vertex& vertex) {
+    return vertex.role == Role::sample && std::ranges::none_of(model.samples.values, [&](const auto& column) {
+               return std::isnan(column[static_cast<std::size_t>(vertex.owner)]);
+           });
 }
 
 /// Puts what was measured at a sample in the place of what was estimated there.
@@ -47,16 +55,22 @@ VertexValues measured_or_estimated(const Model& model, const ValueSource& source
 void set_values(const Model& model, std::span<const Vertex> vertices, std::span<const std::uint32_t> which,
                 const ValueSource& source, VertexValues& values) {
     std::vector<ValueQuery> queries;
+    std::vector<std::uint32_t> asked;
     for (const std::uint32_t i : which) {
-        queries.push_back(query_of(vertices[i]));
+        if (!is_complete(model, vertices[i])) {
+            queries.push_back(query_of(vertices[i]));
+            asked.push_back(i);
+        }
     }
     const ValueBatch batch = source(queries);
-    for (std::size_t k = 0; k < which.size(); ++k) {
+    for (std::size_t k = 0; k < asked.size(); ++k) {
         for (std::size_t property = 0; property < values.values.size(); ++property) {
-            values.values[property][which[k]] = batch.values[property][k];
+            values.values[property][asked[k]] = batch.values[property][k];
         }
-        values.extrapolation[which[k]] = batch.extrapolation[k];
-        prefer_measured(model, vertices[which[k]], which[k], values);
+        values.extrapolation[asked[k]] = batch.extrapolation[k];
+    }
+    for (const std::uint32_t i : which) {
+        prefer_measured(model, vertices[i], i, values);
     }
 }
 

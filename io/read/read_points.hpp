@@ -20,4 +20,24 @@ struct PointTable {
 PointTable read_points(const Source& source, const Frame& frame, const std::string& source_crs,
                        const ColumnNames& columns, Diagnostics& diagnostics);
 
+/// The same, some rows at a time (TableReader). That no row at all is usable is thrown at the end, when there were
+/// several times.
+class PointReader {
+  public:
+    /// The frame must outlive it.
+    PointReader(Source source, const Frame& frame, std::string source_crs, ColumnNames columns);
+
+    /// Nothing: at the end.
+    std::optional<PointTable> next(std::size_t most, Diagnostics& diagnostics);
+
+  private:
+    Source source_;
+    const Frame& frame_;
+    std::string source_crs_;
+    ColumnNames columns_;
+    TableReader rows_;
+    std::size_t times_ = 0;
+    bool any_usable_ = false;
+};
+
 }  // namespace terratet

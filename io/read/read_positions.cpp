@@ -273,7 +273,9 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
             diagnostics.reject(placed.table.file, placed.table.lines[row], problem);
         }
     }
-    require_usable_row(placed, diagnostics, first_rejection);
+    if (options.some_usable) {
+        require_usable_row(placed, diagnostics, first_rejection);
+    }
     refuse_degrees_in_plane(placed, columns);
     if (const std::string remark = outside_area_of_use(placed.points, placed.crs); !remark.empty()) {
         diagnostics.note(held.file + ": " + remark);
@@ -281,7 +283,7 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
     return placed;
 }
 
-void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics) {
+void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics, bool some_usable) {
     const std::size_t first_rejection = diagnostics.rejected.size();
     for (const Vec3& point : placed.points) {
         placed.own_heights.push_back(point.z);
@@ -305,7 +307,9 @@ void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics) {
                                            placed.crs.name, target.name));
         }
     }
-    require_usable_row(placed, diagnostics, first_rejection);
+    if (some_usable) {
+        require_usable_row(placed, diagnostics, first_rejection);
+    }
     if (const std::string remark = transform.remark(); !remark.empty()) {
         diagnostics.note(placed.table.file + ": " + remark);
     }

@@ -30,6 +30,7 @@ struct PlacedTable {
 struct PlaceOptions {
     ZPositive z_positive = ZPositive::automatic;
     std::vector<NullValue> nulls{};
+    bool some_usable = true;  ///< of the rows, or InputError
 };
 
 /// Reads positions. Columns count, unless the layer has points in a known CRS that differ from them (noted): those are
@@ -42,8 +43,9 @@ struct PlaceOptions {
 PlacedTable place(Table table, const Source& source, const std::string& general_crs, const ColumnNames& columns,
                   Diagnostics& diagnostics, const PlaceOptions& options = {});
 
-/// Transforms the points; rejects records that PROJ cannot transform. Throws InputError when no row is left.
-void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics);
+/// Transforms the points; rejects records that PROJ cannot transform. Throws InputError when no row is left, unless
+/// that is allowed.
+void to_crs(PlacedTable& placed, const Crs& target, Diagnostics& diagnostics, bool some_usable = true);
 
 /// The CRS of an input: its own srs=, else the file's, else the general one. Throws InputError naming -s_srs when there
 /// is none; `hint` is appended.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,17 +24,18 @@ std::string full(double number) {
 
 }  // namespace
 
-PointTable query_points(const ModelSnapshot& opened, const QueryArguments& a, Diagnostics& diagnostics) {
+QueryPoints::QueryPoints(const ModelSnapshot& opened, const QueryArguments& a) {
     const Model& model = opened.model();
     if (a.at.empty() == (a.words.size() < 2)) {
         throw UsageError("query " + a.words.front() +
                          ": give either a table of points (- for standard input) or --at x,y,z");
     }
     if (a.at.empty()) {
-        return read_points(parse_source(a.words[1] == "-" ? "/vsistdin/" : a.words[1]), model.frame, a.crs,
-                           column_names(a.columns), diagnostics);
+        reader_.emplace(parse_source(a.words[1] == "-" ? "/vsistdin/" : a.words[1]), model.frame, a.crs,
+                        column_names(a.columns));
+        return;
     }
-    PointTable points;
+    PointTable& points = given_.emplace();
     points.table.columns = {"x", "y", "z"};
     points.table.cells.resize(3);
     for (const std::string& text : a.at) {
@@ -42,7 +45,14 @@ PointTable query_points(const ModelSnapshot& opened, const QueryArguments& a, Di
         }
         points.positions.push_back(model.frame.to_local({n[0], n[1], n[2]}));
     }
-    return points;
+}
+
+std::optional<PointTable> QueryPoints::next(std::size_t most, Diagnostics& diagnostics) {
+    return reader_ ? reader_->next(most, diagnostics) : std::exchange(given_, std::nullopt);
+}
+
+PointTable query_points(const ModelSnapshot& opened, const QueryArguments& a, Diagnostics& diagnostics) {
+    return *QueryPoints(opened, a).next(std::numeric_limits<std::size_t>::max(), diagnostics);
 }
 
 RowCell value_cell(const Property& property, double value) {

@@ -4,6 +4,8 @@
 /// \file
 /// Questions to a model, each answered by rows (docs/queries.md).
 
+#include <optional>
+
 #include "interp/model_snapshot.hpp"
 #include "io/read/read_points.hpp"
 #include "io/write/write_rows.hpp"
@@ -25,6 +27,17 @@ void run_query(const ModelSnapshot& model, const QueryArguments& arguments, RowS
 
 /// The places asked about, by --at or a table.
 PointTable query_points(const ModelSnapshot& model, const QueryArguments& arguments, Diagnostics& diagnostics);
+
+/// The same places, some at a time; nothing: at the end.
+class QueryPoints {
+  public:
+    QueryPoints(const ModelSnapshot& model, const QueryArguments& arguments);
+    std::optional<PointTable> next(std::size_t most, Diagnostics& diagnostics);
+
+  private:
+    std::optional<PointReader> reader_;  ///< none: those given by --at
+    std::optional<PointTable> given_;
+};
 
 /// The verbs, each in a file of its kind.
 void query_values(const ModelSnapshot& model, const QueryArguments& arguments, RowSink& sink, QueryRemarks& remarks);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,7 +49,7 @@ class ValueQueries {
           arguments_(a),
           sink_(sink),
           remarks_(remarks),
-          points_(query_points(opened, a, remarks.diagnostics)),
+          places_(opened, a),
           bounds_(model_.domain, opened.barriers()) {
         for (std::size_t p = 0; p < model_.properties.size(); ++p) {
             const auto& values = model_.samples.values[p];
@@ -61,17 +62,22 @@ class ValueQueries {
     void run() {
         const AskedEstimator asked(opened_, arguments_);
         const ModelEstimator& estimator = asked.get();
-        sink_.begin(columns());
-        for (std::size_t begin = 0; begin < points_.positions.size(); begin += batch_size) {
-            sink_.add(rows(begin, std::min(begin + batch_size, points_.positions.size()), estimator));
+        bool begun = false;
+        while (const auto points = places_.next(batch_size, remarks_.diagnostics)) {
+            if (!std::exchange(begun, true)) {
+                sink_.begin(columns(points->table));
+            }
+            for (std::size_t begin = 0; begin < points->positions.size(); begin += batch_size) {
+                sink_.add(rows(*points, begin, std::min(begin + batch_size, points->positions.size()), estimator));
+            }
         }
         remark(estimator);
     }
 
   private:
-    [[nodiscard]] std::vector<RowColumn> columns() const {
+    [[nodiscard]] std::vector<RowColumn> columns(const Table& table) const {
         std::vector<RowColumn> columns;
-        for (const std::string& column : points_.table.columns) {
+        for (const std::string& column : table.columns) {
             columns.push_back({column, RowColumn::Type::text});
         }
         for (const std::size_t p : asked_) {
@@ -94,11 +100,12 @@ class ValueQueries {
     }
 
     /// In the input's order; places that could not be read, are above the ground or outside the domain have no values.
-    [[nodiscard]] std::vector<Row> rows(std::size_t begin, std::size_t end, const ModelEstimator& estimator) {
+    [[nodiscard]] std::vector<Row> rows(const PointTable& points, std::size_t begin, std::size_t end,
+                                        const ModelEstimator& estimator) {
         std::vector<ValueQuery> queries;
         std::vector<std::size_t> query_of(end - begin, none);
         for (std::size_t row = begin; row < end; ++row) {
-            const Vec3& p = points_.positions[row];
+            const Vec3& p = points.positions[row];
             const bool modelled = is_finite(p) && !bounds_.excludes(p);
             remarks_.excluded += is_finite(p) && !modelled ? 1 : 0;
             if (modelled) {
@@ -111,14 +118,14 @@ class ValueQueries {
         std::vector<Row> rows(end - begin);
         for (std::size_t row = begin; row < end; ++row) {
             Row& out = rows[row - begin];
-            for (const auto& column : points_.table.cells) {
+            for (const auto& column : points.table.cells) {
                 out.cells.emplace_back(std::string(column[row]));
             }
             for (const std::size_t p : asked_) {
                 append(out.cells, model_.properties[p], estimates[p], query_of[row - begin]);
             }
-            if (is_finite(points_.positions[row])) {
-                out.outline = {model_.frame.to_world(points_.positions[row])};
+            if (is_finite(points.positions[row])) {
+                out.outline = {model_.frame.to_world(points.positions[row])};
             }
         }
         return rows;
@@ -167,7 +174,7 @@ class ValueQueries {
     const QueryArguments& arguments_;
     RowSink& sink_;
     QueryRemarks& remarks_;
-    PointTable points_;
+    QueryPoints places_;
     ModelBounds bounds_;
     std::vector<std::size_t> asked_;  ///< properties with samples
 };

@@ -56,7 +56,7 @@ std::vector<std::string_view> first_lines(std::string_view head) {
 }
 
 void append_record(Table& table, const Cells& cells) {
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    for (std::size_t column = 0; column < table.cells.size(); ++column) {
         const std::string_view cell = column < cells.size() ? cells[column] : std::string_view{};
         const std::string_view text = cell.starts_with('\'') ? without_formula_mark(cell) : cell;
         if (is_ascii(text)) {
@@ -67,13 +67,14 @@ void append_record(Table& table, const Cells& cells) {
     }
 }
 
-/// Names of columns from the first record; field_1, field_2, … where it is none.
-void set_header(Table& table, const Cells& cells, bool header) {
+/// From the first record; field_1, field_2, … where it is none.
+std::vector<std::string> column_names(const Cells& cells, bool header) {
+    std::vector<std::string> names;
     for (std::size_t column = 0; column < cells.size(); ++column) {
-        table.columns.push_back(header ? std::string(without_formula_mark(to_utf8(cells[column])))
-                                       : "field_" + std::to_string(column + 1));
+        names.push_back(header ? std::string(without_formula_mark(to_utf8(cells[column])))
+                               : "field_" + std::to_string(column + 1));
     }
-    table.cells.resize(table.columns.size());
+    return names;
 }
 
 bool is_header(const Cells& cells, const CsvOptions& options) {
@@ -109,45 +110,77 @@ char separator_of(std::string_view head) {
     return found != 0 ? found : spaced ? ' ' : ',';
 }
 
-Table read_csv_file(const std::string& path, const CsvOptions& options) {
-    CsvSplitter splitter(path);
-    splitter.set_separator(options.separator != 0 ? options.separator : separator_of(splitter.head()));
-    Table table;
-    Cells cells;
-    std::vector<std::string> comment;
+struct CsvFile::Impl {
+    std::string path;
+    CsvOptions options;
+    CsvSplitter splitter;
+    std::vector<std::string> columns{};
+    std::vector<std::string> comment{};
+    Cells cells{};
     std::size_t longer = 0;
     std::int64_t first_longer = 0;
-    while (splitter.next(cells)) {
-        if (table.columns.empty()) {
-            if (cells.front().starts_with('#') && !options.header) {
-                comment.assign(cells.begin(), cells.end());
-                comment.front().erase(0, 1);
-                if (trimmed(comment.front()).empty()) {
-                    comment.erase(comment.begin());
-                }
-                continue;
-            }
-            const bool header = is_header(cells, options);
-            const bool commented = !header && comment.size() == cells.size();
-            set_header(table, commented ? Cells(comment.begin(), comment.end()) : cells, header || commented);
-            if (header) {
-                continue;
-            }
+
+    /// False for what is no record of data: a comment, the header.
+    bool is_record() {
+        if (!columns.empty()) {
+            return true;
         }
-        append_record(table, cells);
-        table.lines.push_back(splitter.line());
-        if (std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), table.columns.size())),
-                        cells.end(), [](std::string_view cell) { return !cell.empty(); })) {
+        if (cells.front().starts_with('#') && !options.header) {
+            comment.assign(cells.begin(), cells.end());
+            comment.front().erase(0, 1);
+            if (trimmed(comment.front()).empty()) {
+                comment.erase(comment.begin());
+            }
+            return false;
+        }
+        const bool header = is_header(cells, options);
+        const bool commented = !header && comment.size() == cells.size();
+        columns = column_names(commented ? Cells(comment.begin(), comment.end()) : cells, header || commented);
+        return !header;
+    }
+
+    void count_longer() {
+        const auto beyond = cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), columns.size()));
+        if (std::any_of(beyond, cells.end(), [](std::string_view cell) { return !cell.empty(); })) {
             first_longer = longer++ == 0 ? splitter.line() : first_longer;
         }
     }
-    if (longer > 0) {
+};
+
+CsvFile::CsvFile(const std::string& path, const CsvOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{path, options, CsvSplitter(path)})) {
+    impl_->splitter.set_separator(options.separator != 0 ? options.separator : separator_of(impl_->splitter.head()));
+}
+
+CsvFile::~CsvFile() = default;
+CsvFile::CsvFile(CsvFile&&) noexcept = default;
+
+Table CsvFile::next(std::size_t most) {
+    Table table;
+    bool more = true;
+    while (table.rows() < most && (more = impl_->splitter.next(impl_->cells))) {
+        if (!impl_->is_record()) {
+            continue;
+        }
+        table.cells.resize(impl_->columns.size());
+        append_record(table, impl_->cells);
+        table.lines.push_back(impl_->splitter.line());
+        impl_->count_longer();
+    }
+    table.columns = impl_->columns;
+    table.cells.resize(table.columns.size());
+    if (!more && impl_->longer > 0) {
         table.notes.push_back(
             fmt::format("{}: {} records have more cells than the header has columns, which are ignored; the "
                         "first is on line {}",
-                        path, longer, first_longer));
+                        impl_->path, impl_->longer, impl_->first_longer));
+        impl_->longer = 0;
     }
     return table;
+}
+
+Table read_csv_file(const std::string& path, const CsvOptions& options) {
+    return CsvFile(path, options).next();
 }
 
 }  // namespace terratet

@@ -5,6 +5,8 @@
 /// Tables in text, split into cells as the programs that write them mean it.
 
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +29,21 @@ struct CsvOptions {
 /// a record's length; about 300 MB/s. Throws InputError: cannot be read, a cell of 1 MiB or more, a quotation mark that
 /// is not closed (with its line).
 Table read_csv_file(const std::string& path, const CsvOptions& options);
+
+/// The same, some records at a time.
+class CsvFile {
+  public:
+    CsvFile(const std::string& path, const CsvOptions& options);
+    ~CsvFile();
+    CsvFile(CsvFile&&) noexcept;
+
+    /// Up to `most` further records, with the columns' names; none: at the end. The note comes with the last.
+    Table next(std::size_t most = std::numeric_limits<std::size_t>::max());
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 /// The separator that splits the lines at the beginning of a text most evenly: tab, semicolon, comma, bar, or blanks.
 char separator_of(std::string_view head);

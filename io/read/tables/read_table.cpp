@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -176,14 +177,22 @@ void number_lines(Table& table, const Source& source) {
     }
 }
 
-void drop_empty_columns(Table& table) {
+/// Last first.
+std::vector<std::size_t> empty_columns(const Table& table) {
+    std::vector<std::size_t> empty;
     for (std::size_t column = table.columns.size(); column-- > 0;) {
-        const bool empty = is_unnamed(table.columns[column]) &&
-                           std::ranges::all_of(table.cells[column], [](std::string_view cell) { return cell.empty(); });
-        if (empty) {
-            table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
-            table.cells.erase(table.cells.begin() + static_cast<std::ptrdiff_t>(column));
+        if (is_unnamed(table.columns[column]) &&
+            std::ranges::all_of(table.cells[column], [](std::string_view cell) { return cell.empty(); })) {
+            empty.push_back(column);
         }
+    }
+    return empty;
+}
+
+void drop_columns(Table& table, const std::vector<std::size_t>& last_first) {
+    for (const std::size_t column : last_first) {
+        table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
+        table.cells.erase(table.cells.begin() + static_cast<std::ptrdiff_t>(column));
     }
 }
 
@@ -320,31 +329,72 @@ bool holds_geometry(const Table& table) {
     });
 }
 
-Table read_text(const Source& source, const CsvOptions& options) {
-    const bool prefixed = source.path.starts_with("CSV:");
-    Table table = read_csv_file(prefixed ? source.path.substr(4) : source.path, options);
-    table.file = source.describe();
-    return holds_geometry(table) ? read_by_gdal(source) : table;
-}
-
-Table read_any(const Source& source) {
+/// How to read a source as text; nothing where GDAL has to.
+std::optional<CsvOptions> text_options(const Source& source) {
     refuse_wells(source);
     const auto options = csv_options(source);
     const bool own_layer = source.layer.empty() || source.layer == CPLGetBasename(source.path.c_str());
-    Table table = options && own_layer && is_text_table(source) ? read_text(source, *options) : read_by_gdal(source);
-    if (table.rows() == 0) {
-        throw InputError(table.file + ": has no row" +
-                         (source.where.empty() ? " below its header" : " that meets where=" + source.where));
-    }
-    drop_empty_columns(table);
-    accept_number_styles(table, find_optional_column(table, Meaning::id, {}));
-    return table;
+    return options && own_layer && is_text_table(source) ? options : std::nullopt;
+}
+
+[[noreturn]] void refuse_empty(const Source& source) {
+    throw InputError(source.describe() + ": has no row" +
+                     (source.where.empty() ? " below its header" : " that meets where=" + source.where));
 }
 
 }  // namespace
 
+struct TableReader::Impl {
+    Source source;
+    std::optional<CsvFile> text{};
+    std::vector<std::size_t> dropped{};
+    bool begun = false;
+
+    std::optional<Table> first(std::size_t most) {
+        Table table;
+        if (const auto options = text_options(source)) {
+            text.emplace(source.path.starts_with("CSV:") ? source.path.substr(4) : source.path, *options);
+            table = text->next(most);
+            table.file = source.describe();
+        }
+        if (!text || holds_geometry(table)) {
+            text.reset();
+            table = read_by_gdal(source);
+        }
+        if (table.rows() == 0) {
+            refuse_empty(source);
+        }
+        dropped = empty_columns(table);
+        return prepared(std::move(table));
+    }
+
+    std::optional<Table> further(std::size_t most) {
+        if (!text) {
+            return std::nullopt;
+        }
+        Table table = text->next(most);
+        table.file = source.describe();
+        return table.rows() > 0 ? std::optional(prepared(std::move(table))) : std::nullopt;
+    }
+
+    Table prepared(Table table) const {
+        drop_columns(table, dropped);
+        accept_number_styles(table, find_optional_column(table, Meaning::id, {}));
+        return table;
+    }
+};
+
+TableReader::TableReader(Source source) : impl_(std::make_unique<Impl>(Impl{std::move(source)})) {}
+TableReader::~TableReader() = default;
+TableReader::TableReader(TableReader&&) noexcept = default;
+
+std::optional<Table> TableReader::next(std::size_t most) {
+    return naming_file(impl_->source.describe(),
+                       [&] { return std::exchange(impl_->begun, true) ? impl_->further(most) : impl_->first(most); });
+}
+
 Table read_table(const Source& source) {
-    return naming_file(source.describe(), [&] { return read_any(source); });
+    return *TableReader(source).next(std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace terratet

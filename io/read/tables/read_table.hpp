@@ -5,6 +5,8 @@
 /// Attribute tables of any GDAL vector source as text columns: numbers are parsed by whoever knows what a column means,
 /// so that ids stay text ("0.0", "Dec-35") and a word among numbers is found and named.
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,22 @@ namespace terratet {
 /// not a table, no such layer (lists those there are), no row. Opens with a list of allowed drivers only (GDAL's DXF
 /// reader can hang on hostile input, its GML one writes beside the file).
 Table read_table(const Source& source);
+
+/// The same some rows at a time, where the source is a text, in memory that does not grow; what is no text comes whole.
+/// Which columns are left out is decided by the first rows, how numbers are written by those read together.
+class TableReader {
+  public:
+    explicit TableReader(Source source);
+    ~TableReader();
+    TableReader(TableReader&&) noexcept;
+
+    /// Up to `most` further rows; nothing: at the end. Throws as read_table does.
+    std::optional<Table> next(std::size_t most);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 /// Meaning → column's name, from `--columns`. A meaning may come several times, for tables that name it differently.
 using ColumnNames = std::vector<std::pair<std::string, std::string>>;

@@ -36,9 +36,18 @@ struct RowColumn {
     Type type = Type::number;
 };
 
+/// A corner of a section's polygon, in the section.
+struct FlatCorner {
+    double along = 0;            ///< distance along it, or x
+    double up = 0;               ///< height, or y
+    std::vector<double> values;  ///< of each property, in its scale
+};
+
 struct Row {
     std::vector<RowCell> cells;
-    std::vector<Vec3> outline;  ///< true coordinates: none, a point, or a polygon's corners
+    std::vector<Vec3> outline;       ///< true coordinates: none, a point, or a polygon's corners
+    std::vector<FlatCorner> flat{};  ///< of a section's polygon
+    bool in_plan = false;            ///< those are x and y
 };
 
 /// Takes batches of rows.

@@ -5,9 +5,12 @@ import csv
 import io
 import json
 import math
+import os
 import sqlite3
 import subprocess
+import threading
 import unittest
+import xml.etree.ElementTree
 
 from terratet import Case, PROGRAM, TWIN, twin_inputs
 
@@ -93,6 +96,70 @@ class Query(Case):
         self.assertEqual(rows[0], ["x", "y", "K", "z", "K_sd", "K_estimate", "K_sd_estimate", "K_ci95", "K_extrapolation"])
         self.assertEqual(rows[1][:5], ["525500", "6792000", "1e-9", "-200", "u"])
         self.assertEqual(rows[1][5:], self.ask("x,y,z\n525500,6792000,-200\n")[1][3:])
+
+    def test_points_are_answered_while_they_are_still_coming(self):
+        """Constant memory: rows come out before standard input ends, and a million points take no more than few."""
+        lines = [f"{525400 + i % 200},{6791900 + i // 200 % 300},{-100 - i % 97}\n" for i in range(140_000)]
+        command = [PROGRAM, "query", "m.gpkg", "value", "-", "--no-sd", "--estimator", "nearest:anisotropy=none", "-q"]
+        with subprocess.Popen(command, cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as asked:
+            writer = threading.Thread(target=lambda: (asked.stdin.write("x,y,z\n" + "".join(lines)), asked.stdin.flush()))
+            writer.start()
+            watchdog = threading.Timer(60, asked.kill)
+            watchdog.start()
+            early = [asked.stdout.readline() for _ in range(60_000)]
+            self.assertTrue(early[-1], "nothing came before the input's end")
+            self.assertIsNone(asked.poll())
+            rest = []
+            reader = threading.Thread(target=lambda: rest.extend(asked.stdout))
+            reader.start()
+            writer.join()
+            asked.stdin.close()
+            reader.join()
+            watchdog.cancel()
+            _, status, usage = os.wait4(asked.pid, 0)
+            asked.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(asked.returncode, 0)
+        rows = (early + rest)[1:]
+        self.assertEqual([",".join(row.split(",")[:3]) for row in rows], [line.strip() for line in lines])
+        whole = self.write("points.csv", "x,y,z\n" + "".join(lines))
+        self.assertEqual(self.succeed("query", "m.gpkg", "value", whole, *command[5:]).stdout.splitlines()[1:],
+                         [row.strip() for row in rows])
+
+    def test_a_section_is_written_as_raster_and_drawing(self):
+        """Each pixel holds what query cell says of its middle."""
+        line = self.write("line.csv", "x,y,z\n525250,6791700,0\n525750,6792200,0\n525800,6792300,0\n")
+        self.succeed("query", "m.gpkg", "section", line, "-o", "s.tif")
+        self.succeed("query", "m.gpkg", "section", line, "-o", "s.svg")
+        self.succeed("query", "m.gpkg", "section", "--plane=525500,6792000,-300,0,0,1", "-o", "plan.tif")
+        places = []
+        first = math.hypot(500, 500)
+        for file, place in (("s.tif", lambda u, v: (525250 + u / first * 500, 6791700 + u / first * 500, v) if u < first
+                             else (525750 + (u - first) / math.hypot(50, 100) * 50, 6792200 + (u - first) / math.hypot(50, 100) * 100, v)),
+                            ("plan.tif", lambda u, v: (u, v, -300.0))):
+            info = json.loads(subprocess.run(["gdalinfo", "-json", self.folder / file], capture_output=True, text=True,
+                                             check=True).stdout)
+            self.assertEqual(info["bands"][0]["description"], "K")
+            self.assertEqual("EPSG" in info["coordinateSystem"]["wkt"] if "coordinateSystem" in info else False, file == "plan.tif")
+            x0, dx, _, y0, _, dy = info["geoTransform"]
+            width, height = info["size"]
+            self.assertEqual(max(width, height), 2000)
+            for i in range(60):
+                column, row = (i * 397 + 11) % width, (i * 613 + 7) % height
+                places.append((place(x0 + (column + 0.5) * dx, y0 + (row + 0.5) * dy), file, column, row))
+        cells = csv.DictReader(io.StringIO(self.succeed(
+            "query", "m.gpkg", "cell", self.write("c.csv", "x,y,z\n" + "".join("%r,%r,%r\n" % p[0] for p in places))).stdout))
+        compared = 0
+        for (_, file, column, row), cell in zip(places, cells):
+            found = subprocess.run(["gdallocationinfo", "-valonly", self.folder / file, str(column), str(row)],
+                                   capture_output=True, text=True, check=True).stdout.strip()
+            if cell["K"] and not cell["fault"] and found != "nan":
+                self.assertLess(abs(math.log10(float(found) / float(cell["K"]))), 1e-6)
+                compared += 1
+        self.assertGreater(compared, 80)
+        drawing = xml.etree.ElementTree.parse(self.folder / "s.svg").getroot()
+        count = self.succeed("query", "m.gpkg", "section", line).stdout.count("\n") - 1
+        self.assertEqual(len(drawing.findall(".//{*}polygon")), count)
+        self.fail_with(1, "query", "m.gpkg", "section", line, "-o", "s.tif", saying="exists")
 
     def test_what_cannot_be_done_is_said(self):
         points = self.write("p.csv", "a,b\n1,2\n")

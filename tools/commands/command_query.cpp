@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "interp/ranks/ranks.hpp"
+#include "io/write/section_image.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/text.hpp"
@@ -25,17 +26,18 @@ class Printed final : public RowSink {
 class Query final : public Command {
   public:
     Syntax syntax() override {
-        Syntax syntax{"query",
-                      {{"Options",
-                        {{{"o", "output"},
-                          "FILE",
-                          "rows to a file, - for standard output: .csv, .geojson, .gpkg, .fgb, .xlsx, …",
-                          &output_},
-                         {{"overwrite"}, "", "replace it", &overwrite_},
-                         accept_edited_option(accept_edited_),
-                         {{"threads"}, "N", "as many as there are cores by default", &threads_},
-                         {{"q", "quiet"}, "", "no remarks on standard error", &quiet_}}}},
-                      {"MODEL.gpkg VERB POINTS", 2, 3, &words_}};
+        Syntax syntax{
+            "query",
+            {{"Options",
+              {{{"o", "output"},
+                "FILE",
+                "rows to a file, - for standard output: .csv, .geojson, .gpkg, .fgb, .xlsx, …; a section's .tif, .svg",
+                &output_},
+               {{"overwrite"}, "", "replace it", &overwrite_},
+               accept_edited_option(accept_edited_),
+               {{"threads"}, "N", "as many as there are cores by default", &threads_},
+               {{"q", "quiet"}, "", "no remarks on standard error", &quiet_}}}},
+            {"MODEL.gpkg VERB POINTS", 2, 3, &words_}};
         append(syntax, query_options(arguments_));
         return syntax;
     }
@@ -55,7 +57,11 @@ class Query final : public Command {
         Printed printed;
         std::unique_ptr<RowSink> file;
         if (writes && !output_.empty() && output_ != "-") {
-            file = rows_to_file(output_, arguments_.words.front(), opened.model().frame, overwrite_);
+            const Model& model = opened.model();
+            const std::string& verb = arguments_.words.front();
+            file = verb == "section" && is_section_image(output_)
+                       ? section_to_image(output_, model.properties, model.frame, overwrite_)
+                       : rows_to_file(output_, verb, model.frame, overwrite_);
         }
         QueryRemarks remarks;
         run_query(opened, arguments_, file ? *file : printed, remarks);

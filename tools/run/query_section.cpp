@@ -43,9 +43,10 @@ std::vector<Corner> clipped(const std::vector<Corner>& polygon, const CutPlane& 
 struct Part {
     CutPlane plane;
     std::vector<CutPlane> ends;
-    Vec3 start;         ///< distances along count from here
-    Vec3 direction;     ///< of distances, a unit vector
-    double before = 0;  ///< distance of its start
+    Vec3 start;            ///< distances along count from here
+    Vec3 direction;        ///< of distances, a unit vector
+    double before = 0;     ///< distance of its start
+    bool in_plan = false;  ///< a horizontal plane
 };
 
 class Section {
@@ -114,13 +115,23 @@ class Section {
             }
         }
         rows_.push_back(row_of(mean, part, name));
-        rows_.back().outline = std::move(outline);
+        Row& row = rows_.back();
+        row.in_plan = part.in_plan;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const auto& [x, y, z] = outline[i];
+            row.flat.push_back(
+                {part.in_plan ? x : distance_of(polygon[i], part), part.in_plan ? y : z, polygon[i].values});
+        }
+        row.outline = std::move(outline);
+    }
+
+    [[nodiscard]] double distance_of(const Corner& corner, const Part& part) const {
+        return part.before + dot(model_.frame.to_world_size(corner.place - part.start), part.direction);
     }
 
     [[nodiscard]] Row row_of(const Corner& corner, const Part& part, const RowCell& region) const {
         const Vec3 world = model_.frame.to_world(corner.place);
-        const Vec3 from = model_.frame.to_world_size(corner.place - part.start);
-        Row row{{polygons_, part.before + dot(from, part.direction), world.x, world.y, world.z}, {}};
+        Row row{{polygons_, distance_of(corner, part), world.x, world.y, world.z}, {}};
         for (std::size_t p = 0; p < corner.values.size(); ++p) {
             const Property& property = model_.properties[p];
             row.cells.push_back(property.kind == Kind::categorical
@@ -150,8 +161,9 @@ Part plane_asked(const std::string& text, const Frame& frame) {
     const Vec3 point = frame.to_local({n[0], n[1], n[2]});
     const Vec3 up{0, 0, 1};
     Vec3 along = cross(up, normal);
-    along = length(along) > 0 ? along / length(along) : Vec3{1, 0, 0};
-    return {CutPlane::through(point, normal / length(normal)), {}, point, along, 0};
+    const bool in_plan = !(length(along) > 0);
+    along = in_plan ? Vec3{1, 0, 0} : along / length(along);
+    return {CutPlane::through(point, normal / length(normal)), {}, point, along, 0, in_plan};
 }
 
 std::vector<Part> curtain(const std::vector<Vec3>& line) {
@@ -170,7 +182,8 @@ std::vector<Part> curtain(const std::vector<Vec3>& line) {
                          {CutPlane::through(line[i], direction), CutPlane::through(line[i + 1], -direction)},
                          line[i],
                          direction,
-                         before});
+                         before,
+                         false});
         before += width;
     }
     return parts;

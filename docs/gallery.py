@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Terratet authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the pictures of docs/gallery.md, and the README's, from the twin of Olkiluoto in data/:
+"""Makes the pictures of docs/gallery.md, of docs/live.md, and the README's, from the twin of Olkiluoto in data/:
 
     TERRATET=build/release/tools/terratet python3 -B docs/gallery.py [NAME]...
 
@@ -9,6 +9,8 @@ import csv
 import math
 import os
 import pathlib
+import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -54,6 +56,26 @@ def page(folder, picture):
                    check=True, stderr=subprocess.DEVNULL)
 
 
+def what_if(folder, of):
+    """The commands of docs/live.md make its two pictures."""
+    if not (folder / of).exists():
+        for name in ("collar.csv", "survey.csv", "log.csv", "fracture.ts"):
+            shutil.copy(TWIN / name, folder)
+        (folder / "line.csv").write_text("x,y,z\n525200,6792300,0\n525800,6791700,0\n")
+        page = (ROOT / "docs" / "live.md").read_text()
+        for command in re.search(r"```\n(terratet build.*?)```", page, re.S).group(1).splitlines():
+            run(folder, *shlex.split(command)[1:])
+    return folder / of
+
+
+def live_with(folder, picture):
+    what_if(folder, "with.png").rename(folder / picture)
+
+
+def live_without(folder, picture):
+    what_if(folder, "without.png").rename(folder / picture)
+
+
 def levels(folder, picture):
     run(folder, "export", "-q", *SIZE, "--section", "z=-150", "--section", "z=-450", "--section", "z=-750", "--iso", "K=3e-10",
         "--color-map", "cividis", twin(folder), picture)
@@ -97,12 +119,14 @@ def blocks(folder, picture):
 
 
 def main(names):
-    pictures = {"readme": readme, "fracture": fracture, "page": page, "levels": levels, "reach": reach, "rocks": rocks, "blocks": blocks}
+    pictures = {"readme": readme, "fracture": fracture, "page": page, "levels": levels, "reach": reach, "rocks": rocks, "blocks": blocks,
+                "live-with": live_with, "live-without": live_without}
     with tempfile.TemporaryDirectory(prefix="terratet gallery ") as scratch:
         folder = pathlib.Path(scratch)
         for name in names or pictures:
             pictures[name](folder, f"{name}.png")
-            target = IMAGES / ("olkiluoto-twin.png" if name == "readme" else f"gallery-{name}.png")
+            own = {"readme": "olkiluoto-twin.png", "live-with": "live-with.png", "live-without": "live-without.png"}
+            target = IMAGES / own.get(name, f"gallery-{name}.png")
             shutil.copy(folder / f"{name}.png", target)
             print(f"{target.name}: {target.stat().st_size} bytes")
 

@@ -132,7 +132,7 @@ class Live(Case):
     def test_the_what_if_of_the_page_ends_where_it_began(self):
         for name in ("collar.csv", "survey.csv", "log.csv", "fracture.ts"):
             shutil.copy(TWIN / name, self.folder)
-        self.write("line.csv", "x,y,z\n525200,6791700,0\n525800,6792400,0\n")
+        self.write("line.csv", "x,y,z\n525200,6792300,0\n525800,6791700,0\n")
         commands = [line for line in re.search(r"```\n(terratet build.*?)```", PAGE, re.S).group(1).splitlines() if line]
         self.assertEqual(len(commands), 10)
         digests = []
@@ -141,7 +141,12 @@ class Live(Case):
             digests.append(self.succeed("info", "site.gpkg", "--digest").stdout)
         self.assertEqual(digests[0], digests[-1])
         self.assertEqual(len(set(digests)), 3)
-        self.assertNotEqual((self.folder / "with.gpkg").read_bytes(), (self.folder / "without.gpkg").read_bytes())
+        for pair in ("with.png", "without.png"), ("with.tif", "without.tif"):
+            first, second = ((self.folder / name).read_bytes() for name in pair)
+            self.assertNotEqual(first, second)
+        for picture in re.findall(r"images/live-(with(?:out)?\.png)", PAGE):
+            self.assertEqual((ROOT / "docs" / "images" / f"live-{picture}").read_bytes()[:24],  # its size among them
+                             (self.folder / picture).read_bytes()[:24])
 
 
 if __name__ == "__main__":

@@ -34,12 +34,12 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
     {
         ProgressDisplay display(progress_style(a.run.progress, a.run.quiet), stderr);
         const Progress progress = display.callback();
-        const Stopwatch writing;
         record.model = live->snapshot();
         if (!a.run.report.empty()) {
             static_cast<void>(record.model->is_delaunay());  // before the tessellation goes
         }
         record.model->release_memory();
+        const Stopwatch writing;
         record.written =
             write_outputs(*record.model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);
         record.write_seconds = writing.seconds();

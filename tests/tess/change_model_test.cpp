@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <tuple>
 
 #include "tess/error.hpp"
 #include "tess/mesh/quality.hpp"
@@ -80,16 +81,20 @@ ModelPlan random_plan(const Model& model, testing::Random& random, Geometry& geo
         added.samples.values.resize(2);
         const Vec3 at = random.in({{20, 20, -150}, {280, 280, 0}});
         added.boreholes.push_back({"N" + std::to_string(random.below(1'000'000'000)), at, {at}, {0}});
+        const bool loose = random() < 0.3;
+        if (loose) {
+            added.boreholes.clear();
+        }
         for (int i = 0; i < 15; ++i) {
             added.samples.positions.push_back(model.frame.snapped(at - Vec3{0, 0, 4.0 * i}));
-            added.samples.borehole.push_back(0);
-            added.samples.depth.push_back(4.0 * i);
+            added.samples.borehole.push_back(loose ? -1 : 0);
+            added.samples.depth.push_back(loose ? missing : 4.0 * i);
             added.samples.length.push_back(0);
             added.samples.values[0].push_back(1);
             added.samples.values[1].push_back(1e-9);
         }
         geometry.places = added.samples.positions;
-        what = "add a hole";
+        what = loose ? "add samples" : "add a hole";
         CHECK(add_site(plan.site, added).empty());
     } else if (kind == 6) {
         std::vector<bool> marked(model.samples.size());
@@ -125,7 +130,7 @@ ModelPlan random_plan(const Model& model, testing::Random& random, Geometry& geo
         what = "add a fault";
     } else {
         auto& parts = plan.criteria.overrides;
-        if (!parts.empty() && random() < 0.5) {
+        if (!parts.empty() && (random() < 0.5 || parts.size() > 5)) {
             parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(random.below(parts.size())));
         }
         const Vec3 corner = random.in({{0, 0, -200}, {200, 200, -100}});
@@ -157,9 +162,38 @@ void check_same_cells(const Edited& edited) {
     CHECK(std::ranges::equal(edited.tessellation.vertices(), edited.model.vertices));
 }
 
-std::uint64_t edit_count() {
-    const char* const asked = std::getenv("TERRATET_EDITS");
-    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 240;
+std::uint64_t asked_for(const char* variable, std::uint64_t otherwise) {
+    const char* const asked = std::getenv(variable);
+    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : otherwise;
+}
+
+/// One after the other; all is verified each `often` edits and at the end.
+void edit_at_random(Edited& edited, std::uint64_t count, std::uint64_t often, testing::Random& random,
+                    std::string history) {
+    for (std::uint64_t e = 0; e < count; ++e) {
+        Geometry geometry;
+        std::string what;
+        ModelPlan plan = random_plan(edited.model, random, geometry, what);
+        history += ", " + what;
+        edited.apply(std::move(plan));
+        if (e % often == often - 1 || e + 1 == count) {
+            INFO(history);
+            check_same_cells(edited);
+            check_guarantees(edited.model, history);
+        }
+    }
+}
+
+/// Some ten thousand vertices, three faults, two of which meet.
+testing::World large_world() {
+    testing::World world = testing::random_world(100);
+    world.site.surfaces.clear();
+    for (const auto& [name, x, strike] : {std::tuple("A", 110.0, 20.0), {"B", 130.0, 110.0}, {"C", 240.0, 30.0}}) {
+        world.site.surfaces.push_back(testing::planar_fault(name, {x, 150, -100}, strike, 70, 50, 40, 12));
+    }
+    world.options.criteria.l_min = 6;
+    world.options.criteria.l_max = 17;
+    return world;
 }
 
 }  // namespace
@@ -167,9 +201,9 @@ std::uint64_t edit_count() {
 TEST_CASE(
     "X3: random edits leave the tessellation of the stored vertices, and every guarantee that is asked of an edited "
     "model") {
-    testing::Random random(99);
+    testing::Random random(asked_for("TERRATET_EDIT_SEED", 99));
     const std::uint64_t worlds = 30;
-    const std::uint64_t each = edit_count() / worlds;
+    const std::uint64_t each = asked_for("TERRATET_EDITS", 3000) / worlds;
     for (std::uint64_t w = 0; w < worlds; ++w) {
         testing::World world = testing::random_world(100 + w);
         if (world.site.samples.size() < 30) {
@@ -178,18 +212,15 @@ TEST_CASE(
         world.options.extent = {{0, 0, -200}, {300, 300, 0}};
         std::optional<Edited> edited;
         edited.emplace(std::move(testing::build_world(world).model));
-        std::string history = world.description;
-        for (std::uint64_t e = 0; e < each; ++e) {
-            Geometry geometry;
-            std::string what;
-            ModelPlan plan = random_plan(edited->model, random, geometry, what);
-            history += ", " + what;
-            edited->apply(std::move(plan));
-            if (e % 25 == 24 || e + 1 == each) {
-                INFO(history);
-                check_same_cells(*edited);
-                check_guarantees(edited->model, history);
-            }
-        }
+        edit_at_random(*edited, each, 1000, random, world.description);
     }
+}
+
+TEST_CASE("X3: many random edits of one model of ten thousand vertices whose faults meet", "[.large]") {
+    testing::Random random(asked_for("TERRATET_EDIT_SEED", 99));
+    testing::World world = large_world();
+    world.options.extent = {{0, 0, -200}, {300, 300, 0}};
+    Edited edited(std::move(testing::build_world(world).model));
+    WARN(edited.model.vertices.size() << " vertices, " << edited.model.barriers.size() << " faults");
+    edit_at_random(edited, asked_for("TERRATET_EDITS", 1000), 1000, random, "large");
 }

@@ -205,8 +205,8 @@ int kill_count() {
     return asked != nullptr ? std::atoi(asked) : 40;
 }
 
-/// Runs the work in a process of its own and kills that after a while.
-void kill_during(double seconds, const std::function<void()>& work) {
+/// Runs the work in a process of its own.
+pid_t start(const std::function<void()>& work) {
     const pid_t child = fork();
     REQUIRE(child >= 0);
     if (child == 0) {
@@ -216,16 +216,26 @@ void kill_during(double seconds, const std::function<void()>& work) {
         }
         _exit(0);
     }
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-    kill(child, SIGKILL);
+    return child;
+}
+
+void wait_for(pid_t child) {
     int status = 0;
     REQUIRE(waitpid(child, &status, 0) == child);
 }
 
+void kill_during(double seconds, const std::function<void()>& work) {
+    const pid_t child = start(work);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    kill(child, SIGKILL);
+    wait_for(child);
+}
+
+/// Left alone.
 double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto begin = std::chrono::steady_clock::now();
+    wait_for(start(work));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 /// What no writer should do: the vertices of another model into this one, without a journal, with hardly a cache.

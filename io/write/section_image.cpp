@@ -16,8 +16,8 @@
 #include "io/base/gdal_scope.hpp"
 #include "io/base/lower_case.hpp"
 #include "io/base/output_file.hpp"
-#include "io/write/color_map.hpp"
-#include "io/write/markup.hpp"
+#include "io/style/color_map.hpp"
+#include "io/style/markup.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 

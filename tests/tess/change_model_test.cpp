@@ -203,7 +203,7 @@ TEST_CASE(
     "model") {
     testing::Random random(asked_for("TERRATET_EDIT_SEED", 99));
     const std::uint64_t worlds = 30;
-    const std::uint64_t each = asked_for("TERRATET_EDITS", 3000) / worlds;
+    const std::uint64_t each = asked_for("TERRATET_EDITS", 900) / worlds;
     for (std::uint64_t w = 0; w < worlds; ++w) {
         testing::World world = testing::random_world(100 + w);
         if (world.site.samples.size() < 30) {

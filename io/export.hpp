@@ -18,6 +18,7 @@
 /// | .tif | GeoTIFF or COG, a band a slice | voxels |
 /// | .nc | CF netCDF cube | voxels |
 /// | .csv as BLOCKS | block model | voxels |
+/// | .json as VOXELTILES | 3D Tiles of voxels, in a folder | voxels |
 
 #include <array>
 #include <cstdint>

@@ -60,7 +60,8 @@ enum class VoxelValues {
 };
 
 struct ExportOptions {
-    std::string format;  ///< overrides the extension: VTU, GLTF, HTML, PNG, VDB, CSV, GTIFF, COG, NETCDF, BLOCKS
+    std::string
+        format;  ///< overrides the extension: VTU, GLTF, HTML, PNG, VDB, CSV, GTIFF, COG, NETCDF, BLOCKS, 3DTILES
     bool overwrite = false;
     FaultGap fault_gap = FaultGap::keep;
     bool margin = false;  ///< VTU: all cells of the hull box, uncut; else those in the extent, cut at its planes
@@ -72,6 +73,7 @@ struct ExportOptions {
     bool aligned = true;         ///< voxels: their edges are multiples of their size on the map; else they are centred
     bool allow_large = false;    ///< voxels: also more than large_output bytes
     bool msh_version_2 = false;  ///< Gmsh: version 2.2 of its format instead of 4.1
+    std::string vertical_crs;    ///< tilesets: EPSG code of the heights, where the model's system says none
     bool half = false;           ///< VDB: 16-bit floats
     bool all_fields = false;     ///< GeoTIFF: bands for extrapolation and region too
     bool cog = false;            ///< GeoTIFF: cloud-optimised
@@ -113,6 +115,7 @@ struct OutputRecord {
     std::string path;
     std::uint64_t bytes = 0;
     std::optional<ClippedShapes> clipped = {};  ///< of a clipped VTU
+    std::string remark = {};                    ///< what a user should know of it
 };
 
 /// What an output of voxels will take.

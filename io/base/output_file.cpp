@@ -223,11 +223,83 @@ std::uint64_t OutputFile::commit() {
     return static_cast<std::uint64_t>(status.st_size);
 }
 
+OutputFolder::OutputFolder(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {
+    require_folder(path_, path_);
+    if (fs::exists(path_) && !overwrite_) {
+        throw Error(path_ + " exists; give `overwrite` to replace it");
+    }
+    const std::lock_guard lock(outputs().mutex);
+    temporary_ = (folder_of(path_) / random_name("")).string();
+    if (mkdir(temporary_.c_str(), 0777) != 0) {
+        fail_writing(path_, errno);
+    }
+    outputs().temporaries.insert(temporary_);
+}
+
+OutputFolder::~OutputFolder() {
+    const std::lock_guard lock(outputs().mutex);
+    outputs().temporaries.erase(temporary_);
+    std::error_code ignored;
+    fs::remove_all(temporary_, ignored);
+}
+
+void OutputFolder::write(const std::string& name, std::span<const std::string_view> parts) const {
+    const fs::path path = fs::path(temporary_) / name;
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    std::FILE* file = error ? nullptr : std::fopen(path.c_str(), "wbe");
+    if (file == nullptr) {
+        fail_writing(path_, error ? error.value() : errno);
+    }
+    int failed = 0;
+    for (const std::string_view part : parts) {
+        if (failed == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) {
+            failed = errno;
+        }
+    }
+    if (std::fclose(file) != 0 && failed == 0) {
+        failed = errno;
+    }
+    if (failed != 0) {
+        fail_writing(path_, failed);
+    }
+}
+
+void OutputFolder::commit() {
+    assert(!committed_ && "committed twice");
+    const int descriptor = open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && syncfs(descriptor) == 0;
+    const int error = errno;
+    if (descriptor >= 0) {
+        ::close(descriptor);
+    }
+    if (!synced) {
+        fail_writing(path_, error);
+    }
+    const std::lock_guard lock(outputs().mutex);
+    const std::string old = temporary_ + "-old";
+    if (overwrite_ && fs::exists(path_) && std::rename(path_.c_str(), old.c_str()) != 0) {
+        fail_writing(path_, errno);
+    }
+    if (const int refused = move_into_place(temporary_, path_, false)) {
+        std::rename(old.c_str(), path_.c_str());
+        fail_writing(path_, refused);
+    }
+    committed_ = true;
+    std::error_code ignored;
+    fs::remove_all(old, ignored);
+    sync_folder(folder_of(path_));
+}
+
 std::vector<std::string> abandon_outputs() {
     outputs().mutex.lock();  // for good
     for (const std::string& temporary : outputs().temporaries) {
         for (const char* companion : {"", "-journal", "-wal", "-shm"}) {  // of a GeoPackage
             unlink((temporary + companion).c_str());
+        }
+        std::error_code ignored;
+        if (fs::is_directory(temporary, ignored)) {
+            fs::remove_all(temporary, ignored);
         }
     }
     return outputs().committed;

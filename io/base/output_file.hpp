@@ -48,6 +48,28 @@ class OutputFile {
     bool committed_ = false;
 };
 
+/// A folder of files, whole or not at all: they go into a temporary folder beside it, which commit() renames.
+class OutputFolder {
+  public:
+    /// Throws Error: the parent is missing or not writable, or the folder exists and `overwrite` is false.
+    OutputFolder(std::string path, bool overwrite);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    [[nodiscard]] const std::string& temporary_path() const { return temporary_; }
+    /// A file in it, its folders made as needed; for many threads at a time. Throws Error with the system's reason.
+    void write(const std::string& name, std::span<const std::string_view> parts) const;
+    /// On the disk, in place; a folder that was there before is gone with all in it.
+    void commit();
+
+  private:
+    std::string path_;
+    std::string temporary_;
+    bool overwrite_ = false;
+    bool committed_ = false;
+};
+
 /// For a program that has to end at once: removes the temporary files of all outputs not committed, and returns the
 /// paths of those that were. From then on whoever begins or commits one waits for the end.
 std::vector<std::string> abandon_outputs();

@@ -28,6 +28,8 @@ std::unique_ptr<VoxelSink> make_geotiff_sink(const VoxelGrid& grid, const std::s
                                              const ExportOptions& options);
 std::unique_ptr<VoxelSink> make_netcdf_sink(const VoxelGrid& grid, const std::string& path,
                                             const ExportOptions& options);
+std::unique_ptr<VoxelSink> make_tiles_sink(const VoxelGrid& grid, const std::string& path,
+                                           const ExportOptions& options);
 std::unique_ptr<VoxelSink> make_blocks_sink(const VoxelGrid& grid, const std::string& path,
                                             const ExportOptions& options);
 

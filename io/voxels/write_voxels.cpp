@@ -44,12 +44,15 @@ std::uint64_t bytes_a_voxel(const VoxelGrid& grid, const std::string& format, co
     std::uint64_t shaded = 0;
     for (const VoxelLayer& layer : grid.layers) {
         fields += options.all_fields || format == "VDB" || format == "NETCDF" || format == "BLOCKS" ||
-                  layer.role == VoxelLayer::Role::property;
+                  format == "VOXELTILES" || layer.role == VoxelLayer::Role::property;
         shaded += layer.is_log10() ? 1 : 0;
     }
     constexpr std::uint64_t number_in_text = 10;
     if (format == "BLOCKS") {
         return number_in_text * (6 + fields);
+    }
+    if (format == "VOXELTILES") {
+        return 5 * (fields + shaded);  // coarser levels take a seventh more
     }
     return format == "VDB" ? (options.half ? 2 : 4) * (fields + shaded) : 4 * fields;
 }
@@ -75,6 +78,9 @@ std::unique_ptr<VoxelSink> make_sink(const VoxelGrid& grid, const VoxelOutput& o
     }
     if (output.format == "BLOCKS") {
         return make_blocks_sink(grid, output.path, options);
+    }
+    if (output.format == "VOXELTILES") {
+        return make_tiles_sink(grid, output.path, options);
     }
     options.cog = options.cog || output.format == "COG";
     return make_geotiff_sink(grid, output.path, options);

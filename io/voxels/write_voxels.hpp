@@ -16,7 +16,7 @@ namespace terratet {
 
 struct VoxelOutput {
     std::string path;
-    std::string format;  ///< VDB, GTIFF, COG, NETCDF, BLOCKS
+    std::string format;  ///< VDB, GTIFF, COG, NETCDF, BLOCKS, VOXELTILES
 };
 
 /// Throws UsageError for a lattice that is too large, or larger than is usual without options.allow_large.

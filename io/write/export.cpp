@@ -23,14 +23,15 @@ constexpr Format formats[] = {
     {"HTML", ".html", write_html}, {"PNG", ".png", write_png},     {"CSV", ".csv", write_csv},
     {"VTM", ".vtm", write_vtm},    {"MSH", ".msh", write_msh},     {"VDB", ".vdb", nullptr},
     {"GTIFF", ".tif", nullptr},    {"GTIFF", ".tiff", nullptr},    {"COG", ".cog", nullptr},
-    {"NETCDF", ".nc", nullptr},    {"BLOCKS", ".blocks", nullptr},
+    {"NETCDF", ".nc", nullptr},    {"BLOCKS", ".blocks", nullptr}, {"VOXELTILES", ".voxeltiles", nullptr},
 };
 
 constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc and .csv, or `format` HTML, PNG, GLTF, VTU, VTM, MSH, "
+    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv and .json, or `format` HTML, PNG, GLTF, VTU, "
+    "VTM, MSH, "
     "VDB, GTIFF, COG, "
     "NETCDF, "
-    "CSV or BLOCKS";
+    "CSV, BLOCKS or VOXELTILES";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),

@@ -122,17 +122,31 @@ OutputRequest parse_output(const std::string& text) {
     return output;
 }
 
+OutputRequest parse_output(const std::string& text, const ExportArguments& arguments) {
+    OutputRequest output = parse_output(text);
+    const bool tileset = output.format.empty() && arguments.format.empty() && upper(output.path).ends_with(".JSON");
+    if (tileset && !arguments.voxels) {
+        throw UsageError(fmt::format("{}: only tilesets of voxels are written so far, with --voxels", output.path));
+    }
+    if (tileset) {
+        output.format = "VOXELTILES";
+    }
+    return output;
+}
+
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {
-        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv)",
+        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv, .json)",
          {
              {{"of"},
               "FORMAT",
-              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS; with "
+              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS, "
+              "VOXELTILES; with "
               "it the "
               "output may be "
               "-, standard output; of one output among several: OUTPUT,of=FORMAT",
               &a.format},
+             {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES", &a.voxels},
              {{"tr", "voxel-size"},
               "LENGTH[,LENGTH,LENGTH]",
               "of voxels; by default about a 128th of the longest side",
@@ -189,7 +203,7 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
               "KEY=VALUE",
               "the same as creation options: -co COMPRESS=NO; ALIGN=NO centres voxels on the extent, FIELDS=ALL gives "
               "GeoTIFF bands of extrapolation and region, VERSION=2.2 the older format of Gmsh, SPATIAL_INDEX=YES a "
-              "model's layers R-trees",
+              "model's layers R-trees, VERTICAL_SRS=EPSG:5773 tells tilesets what heights are above",
               &a.creation_options},
          }}};
 }
@@ -217,6 +231,8 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.centred = !as_flag(key, value);
         } else if (key == "FIELDS") {
             a.all_fields = choose<bool>("-co FIELDS", upper(value), {{"ALL", true}, {"PROPERTIES", false}});
+        } else if (key == "VERTICAL_SRS") {
+            a.vertical_srs = value;
         } else if (key == "LOCAL_ORIGIN") {
             a.local_origin = as_flag(key, value);
         } else if (key == "FAULT_GAP") {
@@ -236,7 +252,7 @@ ExportArguments with_creation_options(ExportArguments a) {
         } else {
             throw UsageError(fmt::format(
                 "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
-                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VOXEL_SIZE",
+                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VERTICAL_SRS, VOXEL_SIZE",
                 key));
         }
     }
@@ -270,6 +286,7 @@ ExportOptions writer_options(const ExportArguments& arguments, const Model& mode
     options.aligned = !a.centred;
     options.all_fields = a.all_fields;
     options.local_origin = a.local_origin;
+    options.vertical_crs = a.vertical_srs;
     options.color_map = a.color_map;
     if (!a.voxel_size.empty()) {
         options.voxel_size = parse_voxel_size(a.voxel_size, model.frame.metres_per_unit);

@@ -29,6 +29,8 @@ struct ExportArguments {
     bool all_fields = false;     ///< -co FIELDS=ALL
     bool local_origin = false;
     bool uncertainty = false;
+    bool voxels = false;
+    std::string vertical_srs;  ///< -co VERTICAL_SRS=EPSG:…
     std::string fault_gap = "keep";
     std::string color;
     std::string color_map = ExportOptions{}.color_map;
@@ -47,6 +49,9 @@ ExportArguments with_creation_options(ExportArguments arguments);
 
 /// `FILE[,of=FORMAT]`. Throws UsageError when nothing is left of the file's name.
 OutputRequest parse_output(const std::string& text);
+
+/// The same, with the format that --voxels makes of a tileset.
+OutputRequest parse_output(const std::string& text, const ExportArguments& arguments);
 
 /// Throws UsageError for what can be refused before there is a model.
 void check_export_arguments(const ExportArguments& arguments);

@@ -214,6 +214,9 @@ std::string summary_text(const RunRecord& record) {
         if (output.clipped) {
             out += line("", clipped_text(*output.clipped));
         }
+        if (!output.remark.empty()) {
+            out += line("", output.remark);
+        }
     }
     return out + fmt::format("{:10}{:.2f} s", "Time", record.total_seconds);
 }

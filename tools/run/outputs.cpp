@@ -127,6 +127,19 @@ bool is_voxels(const OutputRequest& output, const ExportArguments& arguments) {
     return output.path != standard_output && is_voxel_format(output_format(output.path, format_of(output, arguments)));
 }
 
+/// What makes a folder full of files may make the folder that they are in too.
+void make_tileset_folder(const OutputRequest& output, const std::string& format) {
+    const bool tiles = format == "VOXELTILES" || format == "3DTILES";
+    if (tiles && output.path == standard_output) {
+        throw UsageError("-: a tileset is a folder of files, which standard output cannot take");
+    }
+    const fs::path folder = fs::path(output.path).parent_path();
+    std::error_code ignored;
+    if (tiles && !folder.empty() && !fs::exists(folder, ignored)) {
+        fs::create_directory(folder, ignored);  // require_writable says what went wrong
+    }
+}
+
 }  // namespace
 
 bool any_voxels(const std::vector<std::string>& outputs, const ExportArguments& arguments) {
@@ -146,8 +159,8 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
         if (names_model(text)) {
             paths.push_back(text);
         } else {
-            const OutputRequest output = parse_output(text);
-            output_format(output.path, format_of(output, arguments));
+            const OutputRequest output = parse_output(text, arguments);
+            make_tileset_folder(output, output_format(output.path, format_of(output, arguments)));
             paths.push_back(output.path);
         }
     }
@@ -189,7 +202,7 @@ std::vector<std::string> plan_lines(const ModelSnapshot& model, const std::vecto
     std::vector<OutputRequest> outputs;
     for (const auto& text : texts) {
         if (!names_model(text)) {
-            outputs.push_back(parse_output(text));
+            outputs.push_back(parse_output(text, arguments));
         }
     }
     std::vector<std::string> lines;
@@ -227,8 +240,8 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     Written written;
     std::vector<OutputRequest> voxels;  // share one pass, when the first of them is due
     for (const auto& text : texts) {
-        if (!names_model(text) && is_voxels(parse_output(text), arguments)) {
-            voxels.push_back(parse_output(text));
+        if (!names_model(text) && is_voxels(parse_output(text, arguments), arguments)) {
+            voxels.push_back(parse_output(text, arguments));
         }
     }
     if (run.ranks != nullptr && !run.ranks->is_root()) {
@@ -247,7 +260,7 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
             written.outputs.push_back({text, no_file ? 0 : bytes});
             return;
         }
-        const OutputRequest output = parse_output(text);
+        const OutputRequest output = parse_output(text, arguments);
         ExportOptions of_output = options;
         of_output.format = format_of(output, arguments);
         if (output.path == standard_output) {

@@ -3,30 +3,16 @@
 #include "io/write/scene/scene_frame.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "io/base/crs.hpp"
+#include "io/base/earth_centred.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
-
 Vec3 turned(const Vec3& v) {
     return {v.x, v.z, -v.y};
-}
-
-/// Earth-centred coordinates of longitude and latitude in degrees and an ellipsoidal height, WGS 84.
-Vec3 earth_centred(const Vec3& place) {
-    constexpr double a = 6378137;
-    constexpr double f = 1 / 298.257223563;
-    constexpr double e2 = f * (2 - f);
-    const double sin_lat = std::sin(place.y * radian);
-    const double cos_lat = std::cos(place.y * radian);
-    const double n = a / std::sqrt(1 - e2 * sin_lat * sin_lat);
-    return {(n + place.z) * cos_lat * std::cos(place.x * radian), (n + place.z) * cos_lat * std::sin(place.x * radian),
-            (n * (1 - e2) + place.z) * sin_lat};
 }
 
 }  // namespace
@@ -40,8 +26,8 @@ struct SceneFrame::Globe {
     Vec3 up{};
 
     void put_axes_at(const Vec3& place) {
-        const double lon = place.x * radian;
-        const double lat = place.y * radian;
+        const double lon = place.x * radian_per_degree;
+        const double lat = place.y * radian_per_degree;
         centre = earth_centred(place);
         east = {-std::sin(lon), std::cos(lon), 0};
         north = {-std::sin(lat) * std::cos(lon), -std::sin(lat) * std::sin(lon), std::cos(lat)};

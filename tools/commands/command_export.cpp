@@ -3,10 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include "interp/ranks/ranks.hpp"
+#include "io/source.hpp"
+#include "io/voxels/grids/grid_source.hpp"
 #include "tess/error.hpp"
 #include "tools/commands/run_build.hpp"
 #include "tools/options/command.hpp"
 #include "tools/report/report.hpp"
+#include "tools/run/grid_outputs.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/outputs.hpp"
 #include "tools/run/pipeline.hpp"
@@ -39,6 +42,7 @@ class Export final : public Command {
                 throw UsageError(output + ": is a model; export writes other formats");
             }
         }
+        exporting_.voxels = exporting_.voxels || names_grid(parse_source(input).path);
         check_export_arguments(exporting_);
         const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
         if (writes) {
@@ -49,6 +53,16 @@ class Export final : public Command {
             return exit_done;
         }
         const ThreadLimit threads(run_.threads);
+        if (names_grid(parse_source(input).path) && !writes) {
+            return exit_done;
+        }
+        if (names_grid(parse_source(input).path)) {
+            if (!run_.report.empty()) {
+                throw UsageError("--report: tells of models, and " + input + " is a grid");
+            }
+            export_grid(input, outputs, exporting_, run_);
+            return exit_done;
+        }
         LiveModel live(open_model(input, accept_edited_));
         if (exporting_.uncertainty) {
             live.add_uncertainty();
@@ -87,10 +101,12 @@ class Export final : public Command {
 CommandEntry export_command() {
     return {"export",
             "a model into meshes, scenes and voxels",
-            "MODEL.gpkg OUTPUT…",
-            "Writes a model in one or several formats, each by its extension.",
+            "MODEL.gpkg|GRID OUTPUT…",
+            "Writes a model in one or several formats, each by its extension; or a grid (.tif, .nc, .vdb, a regular "
+            "table) in "
+            "others of voxels.",
             {"terratet export site.gpkg site.vtu site.glb", "terratet export -tr 5m site.gpkg site.vdb",
-             "terratet export --clip --fault-gap collapse site.gpkg elements.vtu"},
+             "terratet export cube.nc cube.vdb", "terratet export --clip --fault-gap collapse site.gpkg elements.vtu"},
             [] { return std::make_unique<Export>(); }};
 }
 

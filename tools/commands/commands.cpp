@@ -12,8 +12,8 @@ namespace terratet::tools {
 
 const std::vector<CommandEntry>& commands() {
     static const std::vector<CommandEntry> table{
-        build_command(), convert_command(), export_command(), info_command(),     check_command(),
-        edit_command(),  query_command(),   live_command(),   validate_command(), completion_command()};
+        build_command(), convert_command(), export_command(),   info_command(),     check_command(),     edit_command(),
+        query_command(), live_command(),    validate_command(), resample_command(), completion_command()};
     return table;
 }
 

@@ -55,6 +55,7 @@ CommandEntry edit_command();
 CommandEntry query_command();
 CommandEntry live_command();
 CommandEntry validate_command();
+CommandEntry resample_command();
 CommandEntry completion_command();
 
 }  // namespace terratet::tools

@@ -144,7 +144,7 @@ void make_tileset_folder(const OutputRequest& output, const std::string& format)
 
 bool any_voxels(const std::vector<std::string>& outputs, const ExportArguments& arguments) {
     return std::ranges::any_of(outputs, [&](const std::string& text) {
-        return !names_model(text) && is_voxels(parse_output(text), arguments);
+        return !names_model(text) && is_voxels(parse_output(text, arguments), arguments);
     });
 }
 

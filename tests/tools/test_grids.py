@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: The Terratet authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grids in: tables, cubes and OpenVDB into each other and into tiles, and a model's values onto them."""
+import csv
+import math
+import random
+import unittest
+
+from terratet import Case, twin_inputs
+from test_tiles import Tileset
+
+
+def field(x, y, z):
+    return x - 400000 + 2 * (y - 6700000) + 5 * z
+
+
+class Grids(Case):
+    size, origin, step = (70, 9, 11), (400005, 6700010, -95), (10, 20, 10)
+
+    def table(self, name="t.csv", separator=";", shuffled=True):
+        places = [tuple(o + s * n for o, s, n in zip(self.origin, self.step, (i, j, k)))
+                  for i in range(self.size[0]) for j in range(self.size[1]) for k in range(self.size[2])]
+        rows = [(x, y, z, field(x, y, z), ("clay", "sand")[z > -40], "" if x < 400050 else x / 7) for x, y, z in places]
+        if shuffled:
+            random.Random(4).shuffle(rows)
+        self.write(name, separator.join("X Y Z value rock part".split()) + "\n" +
+                   "".join(separator.join(map(str, row)) + "\n" for row in rows))
+        return {row[:3]: row[3:] for row in rows}
+
+    def rows(self, name):
+        with open(self.folder / name, newline="") as file:
+            return {tuple(float(row[a]) for a in "XYZ"): row for row in csv.DictReader(file)}
+
+    def same(self, name, truth, rock=True):
+        rows = self.rows(name)
+        self.assertEqual(rows.keys(), truth.keys())
+        for place, (value, kind, part) in truth.items():
+            row = rows[place]
+            self.assertEqual(float(row["value"]), value)
+            self.assertEqual(row["part"] == "", part == "")
+            if part != "":
+                self.assertAlmostEqual(float(row["part"]) / part, 1, 6)
+            if rock:
+                self.assertEqual(row["rock"], kind)
+
+    def test_a_table_becomes_each_format_and_comes_back(self):
+        truth = self.table()
+        self.succeed("export", "t.csv,srs=EPSG:3067", "a.vdb", "a.nc", "a.tif", "a.csv", "a.json", "-q")
+        self.same("a.csv", truth)
+        for name in ("a.vdb", "a.nc", "a.tif"):
+            self.succeed("export", name, "b.csv", "--overwrite", "-q")
+            self.same("b.csv", truth)
+            self.succeed("export", name, "b.json", "--overwrite", "-q")
+            self.assertEqual(Tileset(self.folder / "b.json").document["extras"]["crs"][:9], "EPSG:3067")
+        self.succeed("export", "a.nc", "c.vdb", "-q")
+        self.succeed("export", "c.vdb", "c.nc", "-q")
+        self.succeed("export", "c.nc", "c.csv", "-q")
+        self.same("c.csv", truth)
+
+    def test_tiles_of_a_linear_field_are_linear_up_to_their_faces(self):
+        self.table()
+        self.succeed("export", "t.csv,srs=EPSG:3067", "a.json", "-q")
+        tileset = Tileset(self.folder / "a.json")
+        self.assertEqual(tileset.levels, 2)
+        self.assertEqual(list(tileset.properties), ["value", "part", "part_mask", "mask"])
+        rock = Tileset(self.folder / "a" / "rock" / "tileset.json")
+        self.assertEqual(rock.properties["rock"]["description"].count(";"), 1)
+        seen = 0
+        for tile in tileset.tiles(1):
+            samples = tileset.samples(1, *tile)
+            for at, value in samples["value"].items():
+                n = [t * d + i for t, d, i in zip(tile, tileset.dimensions, at)]
+                near = all(-1 <= i <= size for i, size in zip(n, self.size))
+                x, y, z = (o + s * i for o, s, i in zip(self.origin, self.step, n))
+                if near:  # one voxel beyond the grid too: what a viewer blends at its faces
+                    seen += 1
+                    self.assertAlmostEqual(value, field(x, y, z), 3)
+                self.assertEqual(samples["mask"][at], 255 if all(0 <= i < m for i, m in zip(n, self.size)) else 0)
+                if samples["mask"][at]:
+                    self.assertEqual(samples["part_mask"][at], 255 if x >= 400050 else 0)
+        self.assertGreater(seen, 70 * 9 * 11)
+
+    def test_what_is_no_grid_is_said(self):
+        self.write("no.csv", "x,y,z,v\n0,0,0,1\n10,0,0,1\n13,0,0,1\n")
+        self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="evenly")
+        self.write("no.csv", "a,b,c,v\n0,0,0,1\n")
+        self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="no x")
+        self.write("no.csv", "x,y,z,v\n0,0,0,1\n0,here,0,1\n")
+        self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="line 3")
+        self.write("no.csv", "x,y,z\n0,0,0\n")
+        self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="column of values")
+        self.table()
+        self.fail_with(2, "export", "t.csv", "t.vtu", "-q", saying="VTU")
+        self.fail_with(2, "export", "t.csv", "t.vdb", "-tr", "5", "-q", saying="--voxel-size")
+        self.write("no.vdb", "no")
+        self.fail_with(3, "export", "no.vdb", "t.nc", "-q", saying="OpenVDB")
+        self.write("no.nc", "no")
+        self.fail_with(3, "export", "no.nc", "t.vdb", "-q", saying="no.nc")
+
+    def test_a_models_values_at_the_places_of_a_grid_are_those_that_query_gives(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
+        self.write("g.csv", "x,y,z,v\n" + "".join(f"{x},{y},{z},0\n" for x in range(525200, 525800, 50)
+                                                  for y in range(6791400, 6792400, 100) for z in (-800, -500, -200, 40)))
+        self.succeed("export", "g.csv,srs=EPSG:3067", "g.nc", "g.tif", "-q")
+        self.succeed("query", "m.gpkg", "value", "g.csv", "-o", "q.csv", "-q")
+        with open(self.folder / "q.csv", newline="") as file:
+            asked = {tuple(float(row[a]) for a in "xyz"): row for row in csv.DictReader(file)}
+        for grid in ("g.csv", "g.nc", "g.tif"):
+            self.succeed("resample", "m.gpkg", "--onto", grid, "r.csv", "r.nc", "--overwrite", "-q")
+            rows = self.rows("r.csv")
+            for place, row in rows.items():
+                self.assertAlmostEqual(math.log10(float(row["K"])), math.log10(float(asked[place]["K"])), 5)
+            inside = [p for p in asked if 6791500 <= p[1] <= 6792500 and p[2] <= 10]
+            self.assertEqual(sorted(rows), sorted(inside))
+        self.fail_with(2, "resample", "m.gpkg", "r.csv", saying="--onto")
+
+    def test_a_grid_in_another_system_is_asked_at_its_own_places(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
+        self.write("g.csv", "x,y,z,v\n" + "".join(f"{21.470 + 0.001 * i:.3f},{61.255 + 0.001 * j:.3f},{z},0\n"
+                                                  for i in range(6) for j in range(6) for z in (-500, -300)))
+        self.succeed("resample", "m.gpkg", "--onto", "g.csv,srs=EPSG:4326", "r.csv", "-q")
+        self.succeed("query", "m.gpkg", "value", "g.csv", "-s_srs", "EPSG:4326", "-o", "q.csv", "-q")
+        with open(self.folder / "q.csv", newline="") as file:
+            asked = {tuple(round(float(row[a]), 4) for a in "xyz"): row for row in csv.DictReader(file)}
+        rows = self.rows("r.csv")
+        self.assertGreater(len(rows), 10)
+        for place, row in rows.items():
+            value = asked[tuple(round(c, 4) for c in place)]["K"]
+            self.assertAlmostEqual(math.log10(float(row["K"])), math.log10(float(value)), 5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -80,6 +80,12 @@ class Grids(Case):
                     self.assertEqual(samples["part_mask"][at], 255 if x >= 400050 else 0)
         self.assertGreater(seen, 70 * 9 * 11)
 
+    def test_a_table_without_a_header_is_x_y_z_and_values(self):
+        self.write("t.txt", "0 0 0 clay\n10 0 0 sand\n0 10 0 sand\n")
+        self.succeed("export", "t.txt", "t.csv", "-q")
+        self.assertEqual({p[:2]: row["value1"] for p, row in self.rows("t.csv").items()},
+                         {(0, 0): "clay", (10, 0): "sand", (0, 10): "sand"})
+
     def test_what_is_no_grid_is_said(self):
         self.write("no.csv", "x,y,z,v\n0,0,0,1\n10,0,0,1\n13,0,0,1\n")
         self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="evenly")
@@ -100,7 +106,7 @@ class Grids(Case):
     def test_a_models_values_at_the_places_of_a_grid_are_those_that_query_gives(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
         self.write("g.csv", "x,y,z,v\n" + "".join(f"{x},{y},{z},0\n" for x in range(525200, 525800, 50)
-                                                  for y in range(6791400, 6792400, 100) for z in (-800, -500, -200, 40)))
+                                                  for y in range(6791400, 6792400, 100) for z in (-800, -500, -200, 100)))
         self.succeed("export", "g.csv,srs=EPSG:3067", "g.nc", "g.tif", "-q")
         self.succeed("query", "m.gpkg", "value", "g.csv", "-o", "q.csv", "-q")
         with open(self.folder / "q.csv", newline="") as file:

@@ -106,8 +106,9 @@ class TableGrid {
 
     /// Returns whether the record is a header; without one the columns are x, y, z and values.
     bool find_columns(const Cells& cells) {
-        const bool header = !std::ranges::all_of(
-            cells, [](std::string_view cell) { return cell.empty() || parse_number(cell).has_value(); });
+        const auto first = cells.begin();
+        const bool header = std::any_of(first, first + std::min<std::ptrdiff_t>(3, std::ssize(cells)),
+                                        [](std::string_view cell) { return !parse_number(cell); });
         if (!columns_.empty()) {
             return header;
         }

@@ -13,6 +13,10 @@
 /// | .png | a picture of the scene | write_png |
 /// | .vtm | the mesh, boreholes and barriers for VTK, in a folder | write_vtm |
 /// | .msh | Gmsh, with physical names | write_msh |
+/// | .uge | PFLOTRAN, Voronoi cells and their connections; more in a folder | write_uge |
+/// | .ugi | PFLOTRAN, tetrahedra; more in a folder | write_ugi |
+/// | .ts .obj, .gpkg as SURFACES | barriers, ground and isosurfaces | write_surfaces |
+/// | .vtu as OGS | OpenGeoSys; boundaries and barriers in a folder | write_ogs |
 /// | .csv | vertices with values | write_csv |
 /// | .vdb | OpenVDB, a grid a property | voxels |
 /// | .tif | GeoTIFF or COG, a band a slice | voxels |
@@ -62,8 +66,9 @@ bool is_voxel_format(const std::string& format);
 /// A view as it is, whatever it shows.
 OutputRecord export_model(const ModelView& view, const std::string& path, const ExportOptions& options);
 
-/// How many faults an output of that format shows without width: all, none but the bounds, or none at all.
-std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap);
+/// How many faults an output of that format shows without width: all, none but the bounds, or none at all, as
+/// Voronoi cells do.
+std::optional<Collapsing> collapsing(const Model& model, const std::string& format, const ExportOptions& options);
 
 /// The format that a path would get, upper case; throws UsageError as export_model does. For checks before any work.
 std::string output_format(const std::string& path, const std::string& override_format = {});
@@ -74,6 +79,10 @@ OutputRecord write_html(const ModelView& view, const std::string& path, const Ex
 OutputRecord write_png(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_vtm(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_msh(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_uge(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_ugi(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_ogs(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_surfaces(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
 
 /// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. Gap cells are no

@@ -64,7 +64,8 @@ struct ExportOptions {
         format;  ///< overrides the extension: VTU, GLTF, HTML, PNG, VDB, CSV, GTIFF, COG, NETCDF, BLOCKS, 3DTILES
     bool overwrite = false;
     FaultGap fault_gap = FaultGap::keep;
-    bool margin = false;  ///< VTU: all cells of the hull box, uncut; else those in the extent, cut at its planes
+    bool margin = false;   ///< VTU: all cells of the hull box, uncut; else those in the extent, cut at its planes
+    bool voronoi = false;  ///< VTU: the Voronoi cells of the vertices instead of the tetrahedra
     std::optional<bool> compress;  ///< each format has its own default: VTU, GeoTIFF and netCDF do
     Vec3 voxel_size{0, 0, 0};      ///< 0: the extent's longest side / 128, over the frame's z_scale in z, rounded to
                                    ///< 1-2-5

@@ -17,7 +17,7 @@ BUILD_PACKAGES=(
 TEST_PACKAGES=(
   libopenmpi-dev openmpi-bin
   clang-14 libclang-rt-14-dev
-  catch2 python3 python3-vtk9 python3-openvdb python3-gdal python3-netcdf4 netcdf-bin libopenvdb-tools gdal-bin chromium fonts-dejavu-core
+  catch2 python3 python3-vtk9 python3-openvdb python3-gdal python3-netcdf4 netcdf-bin libopenvdb-tools gdal-bin voro++-dev chromium fonts-dejavu-core
 )
 # Node may come from elsewhere than Debian, where its package would be in the way.
 command -v npm >/dev/null || TEST_PACKAGES+=(nodejs npm)

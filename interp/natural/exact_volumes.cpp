@@ -10,10 +10,10 @@
 #include <limits>
 #include <numeric>
 
-#include "interp/base/circumsphere.hpp"
+#include "tess/base/circumsphere.hpp"
 #include "interp/sites/sphere_tree.hpp"
 #include "interp/base/stolen_volumes.hpp"
-#include "interp/base/wide.hpp"
+#include "tess/base/wide.hpp"
 
 namespace terratet {
 namespace {

@@ -15,7 +15,7 @@
 #include <limits>
 #include <utility>
 
-#include "interp/base/circumsphere.hpp"
+#include "tess/base/circumsphere.hpp"
 #include "interp/base/morton.hpp"
 
 namespace terratet {

@@ -19,19 +19,33 @@ struct Format {
 };
 
 constexpr Format formats[] = {
-    {"VTU", ".vtu", write_vtu},    {"GLTF", ".glb", write_gltf},   {"GLTF", ".gltf", write_gltf},
-    {"HTML", ".html", write_html}, {"PNG", ".png", write_png},     {"CSV", ".csv", write_csv},
-    {"VTM", ".vtm", write_vtm},    {"MSH", ".msh", write_msh},     {"VDB", ".vdb", nullptr},
-    {"GTIFF", ".tif", nullptr},    {"GTIFF", ".tiff", nullptr},    {"COG", ".cog", nullptr},
-    {"NETCDF", ".nc", nullptr},    {"BLOCKS", ".blocks", nullptr}, {"VOXELTILES", ".voxeltiles", nullptr},
+    {"VTU", ".vtu", write_vtu},
+    {"GLTF", ".glb", write_gltf},
+    {"GLTF", ".gltf", write_gltf},
+    {"HTML", ".html", write_html},
+    {"PNG", ".png", write_png},
+    {"CSV", ".csv", write_csv},
+    {"VTM", ".vtm", write_vtm},
+    {"MSH", ".msh", write_msh},
+    {"UGE", ".uge", write_uge},
+    {"UGI", ".ugi", write_ugi},
+    {"OGS", ".ogs", write_ogs},
+    {"SURFACES", ".ts", write_surfaces},
+    {"SURFACES", ".obj", write_surfaces},
+    {"VDB", ".vdb", nullptr},
+    {"GTIFF", ".tif", nullptr},
+    {"GTIFF", ".tiff", nullptr},
+    {"COG", ".cog", nullptr},
+    {"NETCDF", ".nc", nullptr},
+    {"BLOCKS", ".blocks", nullptr},
+    {"VOXELTILES", ".voxeltiles", nullptr},
 };
 
 constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv and .json, or `format` HTML, PNG, GLTF, VTU, "
-    "VTM, MSH, "
-    "VDB, GTIFF, COG, "
-    "NETCDF, "
-    "CSV, BLOCKS or VOXELTILES";
+    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, .csv and .json, or `format` "
+    "HTML, "
+    "PNG, GLTF, "
+    "VTU, VTM, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS or VOXELTILES";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -60,8 +74,12 @@ const Format& format_of(const std::string& path, const std::string& override_for
 
 }  // namespace
 
-std::optional<Collapsing> collapsing(const Model& model, const std::string& format, FaultGap gap) {
-    if (gap == FaultGap::collapse && !model.barriers.empty() && format != "CSV" && !is_voxel_format(format)) {
+std::optional<Collapsing> collapsing(const Model& model, const std::string& format, const ExportOptions& options) {
+    if (format == "UGE" || (options.voronoi && (format == "VTU" || format == "VTM"))) {
+        return std::nullopt;
+    }
+    if (options.fault_gap == FaultGap::collapse && !model.barriers.empty() && format != "CSV" &&
+        !is_voxel_format(format)) {
         return Collapsing::all;
     }
     return has_bounds(model) ? std::optional(Collapsing::bounds) : std::nullopt;
@@ -75,7 +93,7 @@ ModelView view_of(const ModelSnapshot& model, const Format& format, const Export
     if (format.write == nullptr && options.voxel_values == VoxelValues::estimator) {
         estimator = has_derived_properties(model.model()) ? &model.estimator_with_errors() : &model.estimator();
     }
-    if (const auto which = collapsing(model.model(), format.name, options.fault_gap)) {
+    if (const auto which = collapsing(model.model(), format.name, options)) {
         const CollapsedModel& collapsed = model.collapsed(*which);
         return {collapsed.model, collapsed.mesh, collapsed.cells, estimator};
     }

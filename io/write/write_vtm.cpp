@@ -11,6 +11,7 @@
 #include "io/export.hpp"
 #include "io/read/column_names.hpp"
 #include "io/style/markup.hpp"
+#include "io/write/companions.hpp"
 #include "io/write/vtk_xml.hpp"
 
 namespace terratet {
@@ -130,12 +131,7 @@ std::uint64_t write_barriers(const Model& model, const std::string& path, const 
 
 OutputRecord write_vtm(const ModelView& view, const std::string& path, const ExportOptions& options) {
     OutputFile file(path, options.overwrite);
-    const fs::path folder = fs::path(path).replace_extension();
-    std::error_code error;
-    fs::create_directory(folder, error);
-    if (error) {
-        fail_writing(folder.string(), error.value());
-    }
+    const fs::path folder = Companions(path).folder();
     OutputRecord record = write_vtu(view, (folder / "mesh.vtu").string(), options);
     record.bytes += write_boreholes(view.model, (folder / "boreholes.vtp").string(), options);
     record.bytes += write_barriers(view.model, (folder / "barriers.vtp").string(), options);

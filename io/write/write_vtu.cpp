@@ -11,16 +11,14 @@
 #include <variant>
 
 #include "io/export.hpp"
-#include "io/model/role_names.hpp"
-#include "io/read/column_names.hpp"
 #include "io/write/clip.hpp"
 #include "io/write/vtk_xml.hpp"
+#include "io/write/vtu_fields.hpp"
+#include "io/write/write_voronoi.hpp"
 #include "tess/mesh/quality.hpp"
 
 namespace terratet {
 namespace {
-
-constexpr const char* own_arrays[] = {"role", "owner", "side", "id", "extrapolation"};
 
 constexpr std::uint8_t vtk_tetra = 10;
 
@@ -137,35 +135,6 @@ class Indices {
     std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>> values_;
 };
 
-template <class To, class Member>
-std::vector<To> column_of(const std::vector<Vertex>& vertices, Member member) {
-    std::vector<To> result(vertices.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        result[v] = static_cast<To>(vertices[v].*member);
-    }
-    return result;
-}
-
-std::vector<std::uint8_t> censoring_column(const Model& model, const std::vector<Vertex>& vertices, std::size_t p) {
-    std::vector<std::uint8_t> result;
-    result.reserve(vertices.size());
-    for (const Vertex& vertex : vertices) {
-        result.push_back(static_cast<std::uint8_t>(censoring_of(model, vertex, p)));
-    }
-    return result;
-}
-
-/// Properties that are drawn in decades.
-std::vector<std::size_t> log10_properties(const Model& model) {
-    std::vector<std::size_t> found;
-    for (std::size_t p = 0; p < model.properties.size(); ++p) {
-        if (model.properties[p].scale == Scale::log10 && model.properties[p].kind == Kind::continuous) {
-            found.push_back(p);
-        }
-    }
-    return found;
-}
-
 /// Cells between a fault's sheets are thin on purpose: their quality would be all that a scale shows.
 void hide_gaps(const std::vector<std::int32_t>& fault, Contents& contents) {
     for (std::size_t c = 0; c < fault.size(); ++c) {
@@ -176,64 +145,20 @@ void hide_gaps(const std::vector<std::int32_t>& fault, Contents& contents) {
     }
 }
 
-const char* scale_name(const Property& property) {
-    return property.kind == Kind::categorical ? "categorical" : property.scale == Scale::log10 ? "log10" : "linear";
-}
-
-/// What makes the arrays understandable without the model: CRS, units, names behind numbers.
-std::vector<VtkStrings> field_data(const Model& model, const CellTable& cells, const std::vector<std::string>& names) {
-    std::vector<VtkStrings> fields{{"CRS", {model.frame.crs_wkt}}, {"LengthUnit", {model.frame.unit}}};
-    VtkStrings properties{"Properties", names};
-    VtkStrings units{"PropertyUnits", {}};
-    VtkStrings scales{"PropertyScales", {}};
-    for (const Property& property : model.properties) {
-        units.values.push_back(property.unit);
-        scales.values.emplace_back(scale_name(property));
-    }
-    fields.insert(fields.end(), {properties, units, scales});
-    for (std::size_t p = 0; p < names.size(); ++p) {
-        if (model.properties[p].kind == Kind::categorical) {
-            fields.push_back({"Classes:" + names[p], model.properties[p].classes});
-        }
-    }
-    VtkStrings faults{"Faults", {}};
-    for (const Barrier& fault : model.barriers) {
-        faults.values.push_back(fault.name);
-    }
-    VtkStrings reasons{"Reasons", {}};
-    for (int reason = 0; reason <= static_cast<int>(Reason::fault_gap); ++reason) {
-        reasons.values.push_back(to_string(static_cast<Reason>(reason)));
-    }
-    fields.insert(fields.end(), {{"Regions", cells.region_name}, faults, reasons});
-    return fields;
-}
-
 }  // namespace
 
 OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options) {
+    if (options.voronoi) {
+        return write_voronoi_vtu(view, path, options);
+    }
     OutputFile file(path, options.overwrite);
     const Model& model = view.model;
     Contents contents = options.margin ? whole(view) : clipped(view, options.progress);
     for (Vec3& point : contents.points) {
         point = model.frame.to_world(point);
     }
-    std::vector<std::string> names;
-    for (const Property& property : model.properties) {
-        names.push_back(property.name);
-    }
-    const auto censored = censored_properties(model);
-    for (const std::size_t p : censored) {
-        names.push_back(model.properties[p].name + "_censored");
-    }
-    const auto logarithmic = log10_properties(model);
-    for (const std::size_t p : logarithmic) {
-        names.push_back(model.properties[p].name + "_log10");
-    }
-    names = distinct_names(std::move(names), own_arrays);
-    const auto further = names.begin() + std::ssize(model.properties);
-    const std::vector<std::string> censored_names(further, further + std::ssize(censored));
-    const std::vector<std::string> log10_names(further + std::ssize(censored), names.end());
-    names.resize(model.properties.size());
+    const VertexArrays of_vertices(model, {std::move(contents.vertices), std::move(contents.ids),
+                                           std::move(contents.values), std::move(contents.extrapolation)});
 
     VtkPiece piece;
     piece.points = contents.points.size();
@@ -247,29 +172,8 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
     const std::vector<std::uint8_t> types(piece.cells, vtk_tetra);
     piece.topology = {connectivity.array("connectivity"), offsets.array("offsets"), vtk_array("types", types)};
 
-    for (std::size_t p = 0; p < names.size(); ++p) {
-        piece.point_data.push_back(vtk_array(names[p], contents.values[p]));
-    }
-    std::vector<std::vector<double>> decades;
-    for (std::size_t i = 0; i < logarithmic.size(); ++i) {
-        decades.push_back(contents.values[logarithmic[i]]);
-        for (double& value : decades.back()) {
-            value = to_scale(model.properties[logarithmic[i]], value);
-        }
-        piece.point_data.push_back(vtk_array(log10_names[i], decades.back()));
-    }
-    const auto role = column_of<std::uint8_t>(contents.vertices, &Vertex::role);
-    const auto owner = column_of<std::int32_t>(contents.vertices, &Vertex::owner);
-    const auto side = column_of<std::int8_t>(contents.vertices, &Vertex::side);
-    piece.point_data.insert(piece.point_data.end(),
-                            {vtk_array("role", role), vtk_array("owner", owner), vtk_array("side", side),
-                             vtk_array("id", contents.ids), vtk_array("extrapolation", contents.extrapolation)});
-    std::vector<std::vector<std::uint8_t>> bounds;
-    for (std::size_t i = 0; i < censored.size(); ++i) {
-        bounds.push_back(censoring_column(model, contents.vertices, censored[i]));
-        piece.point_data.push_back(vtk_array(censored_names[i], bounds.back()));
-    }
-    piece.active_scalars = names.empty() ? "" : names[0];
+    piece.point_data = of_vertices.arrays();
+    piece.active_scalars = of_vertices.first_property();
 
     const auto fault = inherited<std::int32_t>(view.cells.barrier, contents.parent);
     hide_gaps(fault, contents);
@@ -281,7 +185,7 @@ OutputRecord write_vtu(const ModelView& view, const std::string& path, const Exp
                        vtk_array("aspect", contents.aspect),
                        vtk_array("dihedral", contents.dihedral),
                        vtk_array("reason", reason)};
-    piece.field_data = field_data(model, view.cells, names);
+    piece.field_data = vtu_field_data(model, view.cells, of_vertices.property_names());
     write_vtk(piece, options.compress.value_or(true), file, options.progress);
     return {path, file.commit(), contents.shapes};
 }

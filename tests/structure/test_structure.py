@@ -12,7 +12,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FLOORS = {
     "tess": ["base", "site", "mesh", "barrier/complex", "barrier/query", "barrier/seeds", "barrier/prepare", "model",
-             "refine", "cells", "mending", "collapse", "edit"],
+             "refine", "cells", "mending", "collapse", "voronoi", "edit"],
     "interp": ["base", "ranks", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
     "io": ["base", "read/tables", "read/meshes", "read/surfaces", "read/logs", "read", "read/site", "style", "model", "edit",
            "voxels", "voxels/tiles", "voxels/grids", "write", "write/scene"],

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "interp/ranks/ranks.hpp"
+#include "io/base/lower_case.hpp"
 #include "io/source.hpp"
 #include "io/voxels/grids/grid_source.hpp"
 #include "tess/error.hpp"
@@ -36,9 +37,11 @@ class Export final : public Command {
     int run(const std::vector<Given>&) override {
         const Stopwatch total;
         const std::string& input = paths_.front();
-        const std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
-        for (const auto& output : outputs) {
-            if (names_model(output)) {
+        std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
+        for (auto& output : outputs) {
+            if (names_model(output) && lower_case(exporting_.format) == "surfaces") {
+                output += ",of=SURFACES";  // a GeoPackage, but of no model
+            } else if (names_model(output)) {
                 throw UsageError(output + ": is a model; export writes other formats");
             }
         }

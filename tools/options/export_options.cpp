@@ -136,15 +136,15 @@ OutputRequest parse_output(const std::string& text, const ExportArguments& argum
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {
-        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .vdb, .tif, .nc, .csv, .json)",
+        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, "
+         ".csv, .json)",
          {
              {{"of"},
               "FORMAT",
-              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS, "
-              "VOXELTILES; with "
-              "it the "
-              "output may be "
-              "-, standard output; of one output among several: OUTPUT,of=FORMAT",
+              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, "
+              "NETCDF, "
+              "CSV, BLOCKS, "
+              "VOXELTILES; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",
               &a.format},
              {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES", &a.voxels},
              {{"tr", "voxel-size"},
@@ -166,6 +166,10 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
              {{"dry-run"}, "", "only say what outputs of voxels would take", &a.dry_run},
              {{"allow-large"}, "", "write outputs of voxels above 2 GiB too", &a.allow_large},
              {{"margin"}, "", "VTU: all cells, uncut, of the box that reaches beyond the extent", &a.margin},
+             {{"voronoi"},
+              "",
+              "VTU: the Voronoi cells of the vertices, polyhedra with volumes, instead of tetrahedra",
+              &a.voronoi},
              {{"clip"}, "", "VTU: is what is done anyway, unless --margin", &a.clip},
              {{"fault-gap"},
               "HOW",
@@ -223,6 +227,8 @@ ExportArguments with_creation_options(ExportArguments a) {
             a.uncompressed = !a.compress;
         } else if (key == "MARGIN") {
             a.margin = as_flag(key, value);
+        } else if (key == "VORONOI") {
+            a.voronoi = as_flag(key, value);
         } else if (key == "HALF") {
             a.half = as_flag(key, value);
         } else if (key == "VERSION") {
@@ -252,7 +258,7 @@ ExportArguments with_creation_options(ExportArguments a) {
         } else {
             throw UsageError(fmt::format(
                 "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
-                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VERTICAL_SRS, VOXEL_SIZE",
+                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VERTICAL_SRS, VORONOI, VOXEL_SIZE",
                 key));
         }
     }
@@ -276,6 +282,7 @@ ExportOptions writer_options(const ExportArguments& arguments, const Model& mode
     options.format = a.format;
     options.fault_gap = fault_gap(a);
     options.margin = a.margin;
+    options.voronoi = a.voronoi;
     if (a.compress || a.uncompressed) {
         options.compress = a.compress;
     }

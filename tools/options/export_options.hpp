@@ -17,6 +17,7 @@ struct ExportArguments {
     std::string voxel_size;
     std::string values = "linear";
     bool margin = false;
+    bool voronoi = false;
     bool clip = false;
     bool compress = false;
     bool uncompressed = false;  ///< -co COMPRESS=NO

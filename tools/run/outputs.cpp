@@ -271,7 +271,7 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
             auto records = export_model(model, voxels, options);
             std::ranges::move(records, std::back_inserter(written.outputs));
         }
-        const auto which = collapsing(model.model(), output_format(output.path, of_output.format), options.fault_gap);
+        const auto which = collapsing(model.model(), output_format(output.path, of_output.format), options);
         if (which && (which == Collapsing::all || !written.collapse)) {
             written.collapse = model.collapsed(*which).report;
         }

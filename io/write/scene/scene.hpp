@@ -58,11 +58,28 @@ ScenePart section_part(const SceneCells& cells, const Section& section, const Co
 /// East–west and north–south through the middle of the samples, or of the extent without any.
 std::vector<Section> default_sections(const Model& model);
 
+/// A level of a property, in its scale.
+struct IsoLevel {
+    std::size_t property = 0;
+    double scaled = 0;
+};
+/// Those asked for, or the quartiles of what is coloured. Throws UsageError for properties or levels there are not.
+std::vector<IsoLevel> iso_levels(const Model& model, const ExportOptions& options, const Coloring& coloring);
+/// As far as samples reach, or max_extrapolation lets it.
+CutTriangles isosurface(const SceneCells& cells, const IsoLevel& level, const ExportOptions& options);
+
 std::vector<ScenePart> isosurface_parts(const SceneCells& cells, const ExportOptions& options, const Coloring& coloring,
                                         const SceneFrame& frame);
 
 /// "ground", if there is a topography, and where there are several fault blocks the closed surface of each.
 std::vector<ScenePart> surface_parts(const SceneCells& cells, const ModelView& view, const SceneFrame& frame);
+
+/// A prepared surface's sheet as far as the model goes, frame-local.
+struct ClippedSheet {
+    std::vector<Vec3> places;
+    std::vector<Triangle> triangles;
+};
+ClippedSheet clipped_sheet(const Model& model, std::size_t barrier);
 
 /// A prepared fault's or horizon's sheet, as far as the model goes.
 ScenePart barrier_part(const Model& model, std::size_t index, const SceneFrame& frame);

@@ -105,22 +105,17 @@ double rounded(double value, double size) {
     return std::round(value / step) * step;
 }
 
-ScenePart isosurface_part(const SceneCells& cells, std::size_t property, double scaled, double opacity,
-                          const ExportOptions& options, const Coloring& coloring, const SceneFrame& frame) {
-    const Property& p = cells.model->properties[property];
-    CutTriangles cut = cut_triangles(cut_cells(cells.mesh.cells, cells.scaled(property), scaled, cells.in_gap));
-    std::vector<double> nearness;
-    for (const double e : cells.extrapolation) {
-        nearness.push_back(-e);
-    }
-    const double reach = std::min(options.max_extrapolation.value_or(1), 1.0);
-    cut = part_above(cut, nearness, reach < 1 ? -reach : -1 + 1e-9);
+ScenePart isosurface_part(const SceneCells& cells, const IsoLevel& level, double opacity, const ExportOptions& options,
+                          const Coloring& coloring, const SceneFrame& frame) {
+    const Property& p = cells.model->properties[level.property];
+    const CutTriangles cut = isosurface(cells, level, options);
     ScenePart part;
-    const double value = from_scale(p, scaled);
+    const double value = from_scale(p, level.scaled);
     part.name = "isosurface: " + p.name + "=" + number_text(value) + (p.unit.empty() ? "" : " " + p.unit);
     part.kind = ScenePart::Kind::isosurface;
     part.opacity = opacity;
-    part.color = coloring.has_property() && coloring.index() == property ? coloring.at(value) : Color{0.4, 0.5, 0.6};
+    part.color =
+        coloring.has_property() && coloring.index() == level.property ? coloring.at(value) : Color{0.4, 0.5, 0.6};
     add(part, cut, cells, frame, [&](std::size_t) { return part.color; });
     part.colors.clear();
     part.normals = vertex_normals(part.positions, part.triangles);
@@ -178,10 +173,19 @@ std::vector<Section> default_sections(const Model& model) {
             {"N-S x=" + number_text(middle.x, 9), middle, {1, 0, 0}, {}}};
 }
 
-std::vector<ScenePart> isosurface_parts(const SceneCells& cells, const ExportOptions& options, const Coloring& coloring,
-                                        const SceneFrame& frame) {
-    const Model& model = *cells.model;
-    std::vector<ScenePart> parts;
+CutTriangles isosurface(const SceneCells& cells, const IsoLevel& level, const ExportOptions& options) {
+    const CutTriangles cut =
+        cut_triangles(cut_cells(cells.mesh.cells, cells.scaled(level.property), level.scaled, cells.in_gap));
+    std::vector<double> nearness;
+    for (const double e : cells.extrapolation) {
+        nearness.push_back(-e);
+    }
+    const double reach = std::min(options.max_extrapolation.value_or(1), 1.0);
+    return part_above(cut, nearness, reach < 1 ? -reach : -1 + 1e-9);
+}
+
+std::vector<IsoLevel> iso_levels(const Model& model, const ExportOptions& options, const Coloring& coloring) {
+    std::vector<IsoLevel> levels;
     for (const IsoLevels& wanted : options.iso) {
         const auto found = std::find_if(model.properties.begin(), model.properties.end(),
                                         [&](const Property& p) { return p.name == wanted.property; });
@@ -197,17 +201,24 @@ std::vector<ScenePart> isosurface_parts(const SceneCells& cells, const ExportOpt
                 throw UsageError("`iso`: " + number_text(value) + " is no value of '" + wanted.property +
                                  "', whose scale is log10");
             }
-            parts.push_back(isosurface_part(cells, static_cast<std::size_t>(found - model.properties.begin()), scaled,
-                                            0.5, options, coloring, frame));
+            levels.push_back({static_cast<std::size_t>(found - model.properties.begin()), scaled});
         }
     }
     if (options.iso.empty() && coloring.has_property() && !coloring.categorical()) {
-        double opacity = 0.12;  // the inner ones are seen through the outer
         for (const double level : sample_quartiles(model, coloring.index())) {
-            parts.push_back(isosurface_part(cells, coloring.index(), to_scale(coloring.property(), level), opacity,
-                                            options, coloring, frame));
-            opacity += 0.15;
+            levels.push_back({coloring.index(), to_scale(coloring.property(), level)});
         }
+    }
+    return levels;
+}
+
+std::vector<ScenePart> isosurface_parts(const SceneCells& cells, const ExportOptions& options, const Coloring& coloring,
+                                        const SceneFrame& frame) {
+    std::vector<ScenePart> parts;
+    double opacity = options.iso.empty() ? 0.12 : 0.5;  // the inner ones are seen through the outer
+    for (const IsoLevel& level : iso_levels(*cells.model, options, coloring)) {
+        parts.push_back(isosurface_part(cells, level, opacity, options, coloring, frame));
+        opacity += options.iso.empty() ? 0.15 : 0;
     }
     return parts;
 }

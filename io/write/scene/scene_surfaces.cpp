@@ -113,6 +113,35 @@ std::vector<ScenePart> surface_parts(const SceneCells& cells, const ModelView& v
     return parts;
 }
 
+ClippedSheet clipped_sheet(const Model& model, std::size_t barrier) {
+    const BarrierQuery barriers(model.barriers);
+    const ModelBounds bounds(model.domain, barriers);
+    std::map<Vec3, std::uint32_t> index_of;
+    ClippedSheet sheet;
+    const auto place = [&](const Vec3& p) {
+        const auto [entry, fresh] = index_of.try_emplace(p, static_cast<std::uint32_t>(sheet.places.size()));
+        if (fresh) {
+            sheet.places.push_back(p);
+        }
+        return entry->second;
+    };
+    for (const auto& [a, b, c] : model.barriers[barrier].sheet.triangles) {
+        const auto& v = model.barriers[barrier].sheet.vertices;
+        const std::vector<Vec3> polygon = clipped({v[a], v[b], v[c]}, model.domain.extent);
+        Vec3 middle;
+        for (const Vec3& p : polygon) {
+            middle = middle + p / static_cast<double>(polygon.size());
+        }
+        if (polygon.size() < 3 || (!is_bound(model.barriers[barrier].sheet.kind) && bounds.excludes(middle))) {
+            continue;
+        }
+        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+            sheet.triangles.push_back({place(polygon[0]), place(polygon[k]), place(polygon[k + 1])});
+        }
+    }
+    return sheet;
+}
+
 ScenePart barrier_part(const Model& model, std::size_t index, const SceneFrame& frame) {
     const Barrier& barrier = model.barriers[index];
     ScenePart part;
@@ -123,32 +152,9 @@ ScenePart barrier_part(const Model& model, std::size_t index, const SceneFrame& 
     const Color tint = class_color(index + 5);
     part.color = {0.4 + 0.6 * tint.r, 0.4 + 0.6 * tint.g, 0.4 + 0.6 * tint.b};
     part.opacity = 0.5;
-    const BarrierQuery barriers(model.barriers);
-    const ModelBounds bounds(model.domain, barriers);
-    std::map<Vec3, std::uint32_t> index_of;
-    std::vector<Vec3> places;
-    const auto place = [&](const Vec3& p) {
-        const auto [entry, fresh] = index_of.try_emplace(p, static_cast<std::uint32_t>(places.size()));
-        if (fresh) {
-            places.push_back(p);
-        }
-        return entry->second;
-    };
-    for (const auto& [a, b, c] : barrier.sheet.triangles) {
-        const auto& v = barrier.sheet.vertices;
-        const std::vector<Vec3> polygon = clipped({v[a], v[b], v[c]}, model.domain.extent);
-        Vec3 middle;
-        for (const Vec3& p : polygon) {
-            middle = middle + p / static_cast<double>(polygon.size());
-        }
-        if (polygon.size() < 3 || bounds.excludes(middle)) {
-            continue;
-        }
-        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-            part.triangles.push_back({place(polygon[0]), place(polygon[k]), place(polygon[k + 1])});
-        }
-    }
-    part.positions = frame.positions(places);
+    ClippedSheet sheet = clipped_sheet(model, index);
+    part.positions = frame.positions(sheet.places);
+    part.triangles = std::move(sheet.triangles);
     part.normals = vertex_normals(part.positions, part.triangles);
     return part;
 }

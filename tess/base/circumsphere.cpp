@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/base/circumsphere.hpp"
+#include "tess/base/circumsphere.hpp"
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "interp/base/wide.hpp"
+#include "tess/base/wide.hpp"
 
 namespace terratet {
 namespace {

@@ -13,6 +13,7 @@
 /// | .png | a picture of the scene | write_png |
 /// | .vtm | the mesh, boreholes and barriers for VTK, in a folder | write_vtm |
 /// | .msh | Gmsh, with physical names | write_msh |
+/// | .pvd | a VTU a time, in a folder | write_pvd |
 /// | .uge | PFLOTRAN, Voronoi cells and their connections; more in a folder | write_uge |
 /// | .ugi | PFLOTRAN, tetrahedra; more in a folder | write_ugi |
 /// | .ts .obj, .gpkg as SURFACES | barriers, ground and isosurfaces | write_surfaces |
@@ -79,6 +80,7 @@ OutputRecord write_html(const ModelView& view, const std::string& path, const Ex
 OutputRecord write_png(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_vtm(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_msh(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_pvd(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_uge(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_ugi(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_ogs(const ModelView& view, const std::string& path, const ExportOptions& options);

@@ -16,6 +16,11 @@ Companions::Companions(const std::string& path) : folder_(std::filesystem::path(
     }
 }
 
+Companions::~Companions() {
+    std::error_code not_empty;
+    std::filesystem::remove(folder_, not_empty);
+}
+
 std::string Companions::path_of(const std::string& name, const std::string& extension) {
     std::string stem = name;
     for (char& c : stem) {

@@ -15,6 +15,9 @@ class Companions {
   public:
     /// Makes the folder unless it is there. Throws Error where it cannot.
     explicit Companions(const std::string& path);
+    ~Companions();  ///< a folder without a file goes
+    Companions(const Companions&) = delete;
+    Companions& operator=(const Companions&) = delete;
 
     /// A file in it, called after anything: what is no letter, digit, dot, hyphen or low line becomes a low line, and
     /// the second of a name gets a number.

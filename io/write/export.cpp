@@ -19,33 +19,19 @@ struct Format {
 };
 
 constexpr Format formats[] = {
-    {"VTU", ".vtu", write_vtu},
-    {"GLTF", ".glb", write_gltf},
-    {"GLTF", ".gltf", write_gltf},
-    {"HTML", ".html", write_html},
-    {"PNG", ".png", write_png},
-    {"CSV", ".csv", write_csv},
-    {"VTM", ".vtm", write_vtm},
-    {"MSH", ".msh", write_msh},
-    {"UGE", ".uge", write_uge},
-    {"UGI", ".ugi", write_ugi},
-    {"OGS", ".ogs", write_ogs},
-    {"SURFACES", ".ts", write_surfaces},
-    {"SURFACES", ".obj", write_surfaces},
-    {"VDB", ".vdb", nullptr},
-    {"GTIFF", ".tif", nullptr},
-    {"GTIFF", ".tiff", nullptr},
-    {"COG", ".cog", nullptr},
-    {"NETCDF", ".nc", nullptr},
-    {"BLOCKS", ".blocks", nullptr},
-    {"VOXELTILES", ".voxeltiles", nullptr},
+    {"VTU", ".vtu", write_vtu},          {"GLTF", ".glb", write_gltf},         {"GLTF", ".gltf", write_gltf},
+    {"HTML", ".html", write_html},       {"PNG", ".png", write_png},           {"CSV", ".csv", write_csv},
+    {"VTM", ".vtm", write_vtm},          {"MSH", ".msh", write_msh},           {"PVD", ".pvd", write_pvd},
+    {"UGE", ".uge", write_uge},          {"UGI", ".ugi", write_ugi},           {"OGS", ".ogs", write_ogs},
+    {"SURFACES", ".ts", write_surfaces}, {"SURFACES", ".obj", write_surfaces}, {"VDB", ".vdb", nullptr},
+    {"GTIFF", ".tif", nullptr},          {"GTIFF", ".tiff", nullptr},          {"COG", ".cog", nullptr},
+    {"NETCDF", ".nc", nullptr},          {"BLOCKS", ".blocks", nullptr},       {"VOXELTILES", ".voxeltiles", nullptr},
 };
 
 constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vtm, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, .csv and .json, or `format` "
-    "HTML, "
-    "PNG, GLTF, "
-    "VTU, VTM, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS or VOXELTILES";
+    ".html, .png, .glb, .gltf, .vtu, .vtm, .pvd, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, .csv and .json, or "
+    "`format` "
+    "HTML, PNG, GLTF, VTU, VTM, PVD, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS or VOXELTILES";
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -75,7 +61,7 @@ const Format& format_of(const std::string& path, const std::string& override_for
 }  // namespace
 
 std::optional<Collapsing> collapsing(const Model& model, const std::string& format, const ExportOptions& options) {
-    if (format == "UGE" || (options.voronoi && (format == "VTU" || format == "VTM"))) {
+    if (format == "UGE" || (options.voronoi && (format == "VTU" || format == "VTM" || format == "PVD"))) {
         return std::nullopt;
     }
     if (options.fault_gap == FaultGap::collapse && !model.barriers.empty() && format != "CSV" &&

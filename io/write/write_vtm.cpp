@@ -131,7 +131,8 @@ std::uint64_t write_barriers(const Model& model, const std::string& path, const 
 
 OutputRecord write_vtm(const ModelView& view, const std::string& path, const ExportOptions& options) {
     OutputFile file(path, options.overwrite);
-    const fs::path folder = Companions(path).folder();
+    const Companions companions(path);
+    const fs::path& folder = companions.folder();
     OutputRecord record = write_vtu(view, (folder / "mesh.vtu").string(), options);
     record.bytes += write_boreholes(view.model, (folder / "boreholes.vtp").string(), options);
     record.bytes += write_barriers(view.model, (folder / "barriers.vtp").string(), options);

@@ -24,8 +24,8 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.html", "a.png",    "a.vdb",
-                                    "a.csv", "a.msh", "a.tif",  "a.nc",   "a.blocks", "a.cog"};
+const char* const every_format[] = {"a.vtu", "a.glb", "a.gltf", "a.html",   "a.png", "a.vdb", "a.csv",
+                                    "a.msh", "a.tif", "a.nc",   "a.blocks", "a.cog", "a.ts",  "a.obj"};
 
 }  // namespace
 

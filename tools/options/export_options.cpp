@@ -136,12 +136,13 @@ OutputRequest parse_output(const std::string& text, const ExportArguments& argum
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {
-        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, "
-         ".csv, .json)",
+        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .pvd, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, "
+         ".nc, .csv, .json)",
          {
              {{"of"},
               "FORMAT",
-              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, "
+              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, PVD, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, "
+              "COG, "
               "NETCDF, "
               "CSV, BLOCKS, "
               "VOXELTILES; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",

@@ -20,7 +20,7 @@ struct ExportArguments {
     bool voronoi = false;
     bool clip = false;
     bool compress = false;
-    bool uncompressed = false;  ///< -co COMPRESS=NO
+    bool uncompressed = false;   ///< -co COMPRESS=NO
     bool spatial_index = false;  ///< -co SPATIAL_INDEX=YES
     bool allow_large = false;
     bool dry_run = false;

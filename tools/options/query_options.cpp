@@ -32,6 +32,7 @@ std::vector<OptionGroup> query_options(QueryArguments& a) {
          }},
         {"Values",
          {
+             {{"time"}, "T", "at that time alone, of a model built with --time-column", &a.time},
              {{"estimator"}, "SPEC", "instead of the model's own", &a.estimator},
              {{"probabilities"}, "", "of a category also each class's probability", &a.probabilities},
              {{"no-sd"}, "", "leave standard deviations and half-widths out: empty, and faster", &a.no_deviation},

@@ -29,6 +29,7 @@ struct QueryArguments {
     std::string crs;
     std::vector<std::string> columns;
     std::string side = "+";
+    std::string time;
     bool probabilities = false;
     bool no_deviation = false;
     const Ranks* ranks = nullptr;  ///< who shares the work; null: nobody

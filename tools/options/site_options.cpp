@@ -11,8 +11,8 @@
 
 #include "interp/plan/composite.hpp"
 #include "io/base/crs.hpp"
-#include "io/read/tables/read_table.hpp"
 #include "io/read/tables/null_codes.hpp"
+#include "io/read/tables/read_table.hpp"
 #include "tess/error.hpp"
 #include "tess/property.hpp"
 #include "tools/options/choice.hpp"
@@ -125,6 +125,11 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               "a column not found by its name: id, x, y, z, from, to, depth, azimuth, dip, length, name, qualifier "
               "(of bounds), dip-direction and lower-depth (of traces)",
               &a.columns},
+             {{"time-column"},
+              "COLUMN",
+              "of logs and samples that were measured more than once: one tessellation, at the time T the property P "
+              "is P@T",
+              &a.time_column},
              {{"s_srs", "source-crs"}, "CRS", "of the inputs that carry none", &a.source_crs},
              {{"t_srs", "target-crs"}, "CRS", "of the model: the first projected one by default", &a.target_crs},
              {{"desurvey"}, "HOW", "minimum-curvature (default), tangential, balanced-tangential", &a.desurvey},
@@ -233,6 +238,9 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     }
     inputs.properties = a.properties;
     inputs.columns = column_names(a.columns);
+    if (!a.time_column.empty()) {
+        inputs.columns.emplace_back("time", a.time_column);
+    }
     inputs.desurvey = choose<Desurvey>("--desurvey", a.desurvey,
                                        {{"minimum-curvature", Desurvey::minimum_curvature},
                                         {"tangential", Desurvey::tangential},

@@ -22,6 +22,7 @@ struct SiteArguments {
     std::vector<std::string> surfaces;
     std::vector<std::string> topography;
     std::string domain;
+    std::string time_column;
     std::vector<std::string> properties;
     std::vector<std::string> columns;
     std::string source_crs;

@@ -8,6 +8,7 @@
 
 #include "interp/estimator_plan.hpp"
 #include "io/base/output_file.hpp"
+#include "io/base/time_steps.hpp"
 #include "tess/barrier_query.hpp"
 #include "tess/mesh/quality.hpp"
 #include "tools/options/field_names.hpp"
@@ -41,6 +42,7 @@ Json censored_json(const Model& model) {
 Json input_json(const BuildRecord& build, const Model& model) {
     return {{"boreholes", build.counts.boreholes},
             {"samples", build.counts.samples},
+            {"times", time_steps(model.properties)},
             {"faults", build.counts.faults},
             {"censored", censored_json(model)},
             {"rejected", rejected_json(build.diagnostics)},

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "io/base/time_steps.hpp"
 #include "tess/error.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/options/text.hpp"
@@ -21,6 +22,65 @@ namespace {
 std::string full(double number) {
     return fmt::format("{}", number);
 }
+
+/// Hands on what is said at one time, under names without it.
+class TimeSink final : public RowSink {
+  public:
+    /// `arguments` get the names that the model has.
+    TimeSink(const std::vector<Property>& properties, const std::string& time, QueryArguments& arguments, RowSink& sink)
+        : properties_(properties), time_(time), sink_(sink) {
+        const std::size_t equals = arguments.above.find('=');
+        const std::string asked = name_at(arguments.above.substr(0, equals), time);
+        if (equals != std::string::npos && std::ranges::count(properties, asked, &Property::name) > 0) {
+            arguments.above = asked + arguments.above.substr(equals);
+        }
+    }
+
+    void begin(const std::vector<RowColumn>& columns) override {
+        std::vector<RowColumn> kept;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const Property* const property = property_of(columns[i].name);
+            const std::string plain = property == nullptr ? "" : name_without_time(property->name);
+            if (property != nullptr && plain != property->name && name_at(plain, time_) != property->name) {
+                continue;
+            }
+            kept_.push_back(i);
+            const std::size_t own = property == nullptr ? 0 : property->name.size();
+            add_column(kept, plain + columns[i].name.substr(own), columns[i].type);
+        }
+        sink_.begin(kept);
+    }
+    void add(const std::vector<Row>& rows) override {
+        std::vector<Row> kept;
+        for (const Row& row : rows) {
+            kept.push_back(row);
+            kept.back().cells.clear();
+            for (const std::size_t i : kept_) {
+                kept.back().cells.push_back(row.cells[i]);
+            }
+        }
+        sink_.add(kept);
+    }
+    void end() override {}  // by whoever began
+
+  private:
+    /// Whose value, deviation or the like a column has: the longest name that it begins with.
+    [[nodiscard]] const Property* property_of(const std::string& column) const {
+        const Property* found = nullptr;
+        for (const Property& property : properties_) {
+            const bool fits = column == property.name || column.starts_with(property.name + "_");
+            if (fits && (found == nullptr || property.name.size() > found->name.size())) {
+                found = &property;
+            }
+        }
+        return found;
+    }
+
+    const std::vector<Property>& properties_;
+    std::string time_;
+    RowSink& sink_;
+    std::vector<std::size_t> kept_;
+};
 
 }  // namespace
 
@@ -99,7 +159,13 @@ void run_query(const ModelSnapshot& model, const QueryArguments& a, RowSink& sin
     if (a.side != "+" && a.side != "-") {
         throw UsageError("query --side: '" + a.side + "' is neither + nor -");
     }
-    found->second(model, a, sink, remarks);
+    if (a.time.empty()) {
+        found->second(model, a, sink, remarks);
+    } else {
+        QueryArguments at_time = a;
+        TimeSink of_time(model.model().properties, require_time(model.model().properties, a.time), at_time, sink);
+        found->second(model, at_time, of_time, remarks);
+    }
     sink.end();
 }
 

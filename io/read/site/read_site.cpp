@@ -15,6 +15,7 @@
 #include "io/read/read_samples.hpp"
 #include "io/read/read_values.hpp"
 #include "io/read/site/hole_inputs.hpp"
+#include "io/read/site/over_time.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
 #include "tess/error.hpp"
 #include "tess/site/site_box.hpp"
@@ -375,12 +376,17 @@ void require_consistent(const SiteInputs& inputs) {
 
 }  // namespace
 
-Site read_site(const SiteInputs& inputs, Diagnostics& diagnostics, ReadCounts& counts, const Progress& progress) {
+Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& counts, const Progress& progress) {
+    SiteInputs inputs = given;
+    const std::string time_column = take_time_column(inputs);
     require_consistent(inputs);
     const Checkpoint checkpoint(inputs, diagnostics, progress);
 
     Inputs read = read_inputs(inputs, diagnostics, checkpoint);
     require_named_columns(inputs, read);
+    if (!time_column.empty()) {
+        spread_over_time(time_column, read.logs, read.samples, inputs, diagnostics);
+    }
     const Crs target = choose_target(inputs, read, diagnostics);
     require_one_unit(target);
     const std::vector<Crs> collar_crs = unify(read, target, diagnostics);

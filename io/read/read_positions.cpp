@@ -327,7 +327,8 @@ Crs resolved_crs(const Source& source, const Crs& in_file, const std::string& ge
         return parse_crs(general_crs);
     }
     throw InputError(source.describe() +
-                     ": no coordinate system is known; name it with -s_srs, or for this file with srs= after it" +
+                     ": no coordinate system is known; name it with -s_srs, or for this file with srs= after it "
+                     "(EPSG:3067, say, or local where there is none)" +
                      hint);
 }
 

@@ -36,7 +36,7 @@ class Document {
         for (const char* name : {"nodes", "meshes", "materials"}) {
             document_[name] = Json::array();
         }
-        tables_ = add_feature_tables(document_, buffers_, scene, model, attributes_);
+        tables_ = add_feature_tables(document_, buffers_, scene, model);
     }
 
     void add(const ScenePart& part) {
@@ -209,8 +209,7 @@ class Document {
     }
 
     void add_feature(Json& primitive, const ScenePart& part) {
-        const bool hole = part.kind == ScenePart::Kind::borehole;
-        const int table = hole                                    ? tables_.holes
+        const int table = part.kind == ScenePart::Kind::borehole  ? tables_.holes
                           : part.kind == ScenePart::Kind::barrier ? tables_.barriers
                           : part.kind == ScenePart::Kind::block   ? tables_.blocks
                                                                   : -1;
@@ -222,9 +221,6 @@ class Document {
         primitive["extensions"]["EXT_mesh_features"]["featureIds"] =
             Json::array({{{"featureCount", 1}, {"attribute", 0}, {"propertyTable", table}}});
         used_.insert("EXT_mesh_features");
-        if (hole) {
-            primitive["extensions"]["EXT_structural_metadata"]["propertyAttributes"] = {0};
-        }
     }
 
     const Scene& scene_;

@@ -48,6 +48,6 @@ struct FeatureTables {
     int blocks = -1;
 };
 FeatureTables add_feature_tables(GltfBuffers::Json& document, GltfBuffers& buffers, const Scene& scene,
-                                 const Model& model, const std::vector<std::string>& attributes);
+                                 const Model& model);
 
 }  // namespace terratet

@@ -215,8 +215,7 @@ Json gltf_extras(const Scene& scene, const Model& model, const std::vector<std::
     return extras;
 }
 
-FeatureTables add_feature_tables(Json& document, GltfBuffers& buffers, const Scene& scene, const Model& model,
-                                 const std::vector<std::string>& attributes) {
+FeatureTables add_feature_tables(Json& document, GltfBuffers& buffers, const Scene& scene, const Model& model) {
     const auto has = [&](ScenePart::Kind kind) {
         return std::any_of(scene.parts.begin(), scene.parts.end(),
                            [&](const ScenePart& part) { return part.kind == kind; });
@@ -232,21 +231,8 @@ FeatureTables add_feature_tables(Json& document, GltfBuffers& buffers, const Sce
     if (has(ScenePart::Kind::block)) {
         tables.blocks = block_table(metadata, buffers, scene);
     }
-    // What is known at each vertex of a borehole.
-    if (tables.holes >= 0) {
-        Json of_class = Json::object();
-        Json of_vertex = Json::object();
-        const auto add = [&](const std::string& name, const std::string& attribute) {
-            of_class[name] = {{"type", "SCALAR"}, {"componentType", "FLOAT32"}, {"noData", gltf_nodata()}};
-            of_vertex[name] = {{"attribute", attribute}};
-        };
-        add("depth", "_DEPTH");
-        for (const std::string& attribute : attributes) {
-            add("value" + attribute, attribute);  // an identifier whatever the property is called
-        }
-        metadata["schema"]["classes"]["interval"] = {{"properties", of_class}};
-        metadata["propertyAttributes"] = Json::array({{{"class", "interval"}, {"properties", of_vertex}}});
-    }
+    // No property attributes (depth and values at a borehole's vertices): CesiumJS 1.145 stops drawing unless every
+    // primitive of the file has all of them. They are attributes of the vertices all the same.
     if (!metadata["schema"]["classes"].empty()) {
         document["extensions"]["EXT_structural_metadata"] = std::move(metadata);
     }

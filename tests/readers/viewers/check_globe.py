@@ -17,9 +17,12 @@ osr.UseExceptions()
 terratet, modules, picture = sys.argv[1:]
 west, south, bottom, east, north, top = 525000, 6780000, -2000, 549000, 6804000, 100
 with tempfile.TemporaryDirectory(prefix="terratet test ") as folder:
-    places = itertools.product(range(west + 2000, east, 4000), range(south + 2000, north, 4000), (-1500, -700, 0))
-    pathlib.Path(folder, "samples.csv").write_text("x,y,z,T\n" + "".join(f"{x},{y},{z},{20 - z / 40}\n" for x, y, z in places))
-    subprocess.run([terratet, "convert", "-q", "--samples", "samples.csv", "-s_srs", "EPSG:3067", "-te",
+    # Boreholes, with all that the file tells of them: what a viewer misses there has stopped its drawing.
+    holes = {f"H{x}-{y}": (x, y) for x in range(west + 2000, east, 4000) for y in range(south + 2000, north, 4000)}
+    pathlib.Path(folder, "collar.csv").write_text("id,x,y,z\n" + "".join(f"{id},{x},{y},0\n" for id, (x, y) in holes.items()))
+    pathlib.Path(folder, "log.csv").write_text("id,from,to,T\n" + "".join(
+        f"{id},{depth},{depth + 500},{20 + depth / 40}\n" for id in holes for depth in (0, 500, 1000, 1500)))
+    subprocess.run([terratet, "convert", "-q", "--boreholes", "collar.csv", "--log", "log.csv", "-s_srs", "EPSG:3067", "-te",
                     *map(str, (west, south, bottom, east, north, top)), "--lmin", "1500", "-co", "FRAME=enu", "globe.glb"],
                    cwd=folder, check=True)
     done = subprocess.run(["node", pathlib.Path(__file__).with_name("open_gltf.mjs"), "--modules", modules, "--page", "cesium",

@@ -58,7 +58,7 @@ const browser = spawn(process.env.CHROMIUM || 'chromium', [
   '--disable-dev-shm-usage', `--user-data-dir=${profile}`, '--window-size=1200,900', '--remote-debugging-port=0',
   `http://127.0.0.1:${server.address().port}/?scene=/scene${path.extname(file)}`], { stdio: 'ignore' });
 const gone = new Promise((resolve) => { browser.on('exit', resolve); });
-await Promise.race([report, gone, new Promise((resolve) => { setTimeout(resolve, 150000); })]);
+await Promise.race([report, gone, new Promise((resolve) => { setTimeout(resolve, 400000); })]);
 browser.kill();
 await gone;
 server.close();

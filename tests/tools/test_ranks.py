@@ -45,7 +45,8 @@ class SeveralRanks(Case):
                                     input=text, timeout=LIMIT))
         before = self.listing()
         for count in COUNTS:
-            self.assertEqual(left(self.by_ranks(count, *arguments, text=text)), alone, count)
+            same = left(self.by_ranks(count, *arguments, text=text)) == alone  # a difference of long texts takes minutes
+            self.assertTrue(same, f"{count} ranks: something else")
         self.assertEqual(self.listing(), before)
         return alone[0]
 

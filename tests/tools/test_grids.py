@@ -49,7 +49,7 @@ class Grids(Case):
         self.same("a.csv", truth)
         for name in ("a.vdb", "a.nc", "a.tif"):
             self.succeed("export", name, "b.csv", "--overwrite", "-q")
-            self.same("b.csv", truth)
+            self.same("b.csv", truth, rock=name != "a.tif")  # where classes are numbers
             self.succeed("export", name, "b.json", "--overwrite", "-q")
             self.assertEqual(Tileset(self.folder / "b.json").document["extras"]["crs"][:9], "EPSG:3067")
         self.succeed("export", "a.nc", "c.vdb", "-q")
@@ -122,7 +122,7 @@ class Grids(Case):
 
     def test_a_grid_in_another_system_is_asked_at_its_own_places(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
-        self.write("g.csv", "x,y,z,v\n" + "".join(f"{21.470 + 0.001 * i:.3f},{61.255 + 0.001 * j:.3f},{z},0\n"
+        self.write("g.csv", "x,y,z,v\n" + "".join(f"{27.470 + 0.001 * i:.3f},{61.255 + 0.001 * j:.3f},{z},0\n"
                                                   for i in range(6) for j in range(6) for z in (-500, -300)))
         self.succeed("resample", "m.gpkg", "--onto", "g.csv,srs=EPSG:4326", "r.csv", "-q")
         self.succeed("query", "m.gpkg", "value", "g.csv", "-s_srs", "EPSG:4326", "-o", "q.csv", "-q")

@@ -71,10 +71,10 @@ openvdb::GridPtrVec open_grids(const Source& source) {
     std::call_once(once, openvdb::initialize);
     try {
         openvdb::io::File file(source.path);
-        file.setCopyMaxBytes(0);
-        file.open();
+        file.open(false);
+        const openvdb::GridPtrVecPtr all = file.getGrids();
         openvdb::GridPtrVec result;
-        for (const auto& grid : *file.getGrids()) {
+        for (const auto& grid : *all) {
             const bool wanted = source.layer.empty() ? !grid->getMetadata<openvdb::Vec2DMetadata>("decades")
                                                      : grid->getName() == source.layer;
             if (wanted && is_number(*grid) && !grid->evalActiveVoxelBoundingBox().empty()) {

@@ -30,13 +30,13 @@ class ConflictSearch {
     void cache(delaunay::Cell cell, const CellPoints& points, const Circumsphere& sphere) const;
 
     /// False as soon as `accept` says so of a facet of the zone's boundary (its outer cell may be infinite): the zone
-    /// is incomplete then. \pre `start` is in conflict with `point`.
+    /// is incomplete then. False, too, when `start` is not in conflict with `point`, as where a flat cell's
+    /// circumcentre is off by rounding: what is round it then is no zone, and inserting there would break the mesh.
     template <class Accept>
     bool find(const Vec3& point, delaunay::Cell start, Zone& zone, const Accept& accept) const;
 
-    /// \pre `start` is in conflict with `point`.
-    void find(const Vec3& point, delaunay::Cell start, Zone& zone) const {
-        find(point, start, zone, [](const delaunay::Facet&) { return true; });
+    bool find(const Vec3& point, delaunay::Cell start, Zone& zone) const {
+        return find(point, start, zone, [](const delaunay::Facet&) { return true; });
     }
 
   private:
@@ -74,6 +74,9 @@ bool ConflictSearch::find(const Vec3& point, delaunay::Cell start, Zone& zone, c
     zone.point = point;
     zone.boundary.clear();
     zone.cells.clear();
+    if (!in_conflict(start, relative, exact)) {
+        return false;
+    }
     zone.cells.push_back(start);
     start->tds_data().mark_in_conflict();
     bool accepted = true;

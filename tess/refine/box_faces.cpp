@@ -24,6 +24,19 @@ struct Disc {
     friend auto operator<=>(const Disc&, const Disc&) = default;
 };
 
+/// A middle between two of the corners, when it is that but for rounding. So all triangles of a square have one centre,
+/// the same on opposite faces: four of these that are coplanar but for rounding would make a cell without volume.
+double rounded(double centre, const std::array<std::array<double, 2>, 3>& p, std::size_t axis, double radius) {
+    constexpr double rounding = 1e-10;
+    for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 2U}, {0U, 0U}, {1U, 1U}, {2U, 2U}}) {
+        const double middle = 0.5 * (p[i][axis] + p[j][axis]);
+        if (std::abs(centre - middle) <= rounding * radius) {
+            return middle;
+        }
+    }
+    return centre;
+}
+
 /// Relative to the first corner, with the corners in lexicographic order: the same bits for the same triangle.
 Disc circumscribed(Planar::Face_handle face) {
     std::array<std::array<double, 2>, 3> p{};
@@ -40,7 +53,8 @@ Disc circumscribed(Planar::Face_handle face) {
     const double bb = bu * bu + bv * bv;
     const double u = (bv * aa - av * bb) / twice;
     const double v = (au * bb - bu * aa) / twice;
-    return {u * u + v * v, p[0][0] + u, p[0][1] + v};
+    const double radius = std::sqrt(u * u + v * v);
+    return {u * u + v * v, rounded(p[0][0] + u, p, 0, radius), rounded(p[0][1] + v, p, 1, radius)};
 }
 
 constexpr std::array<int, 2> other_axes(int axis) {

@@ -119,8 +119,7 @@ bool CleanUp::insert_into(std::set<Cell>& fresh, BallPoints* ball, State& before
         const Vec3 around = frame_.snapped(place + candidate_radius * proposal.radius * ball->next());
         place = rule_.allows(around) ? around : place;
     }
-    search_.find(place, start, zone_);
-    if (!zone_clear_of(place)) {
+    if (!search_.find(place, start, zone_) || !zone_clear_of(place)) {
         return false;
     }
     for (const Cell cell : zone_.cells) {

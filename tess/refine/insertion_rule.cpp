@@ -30,6 +30,16 @@ double aspect_violation(const CellPoints& p, double squared_radius, double volum
     return factor <= 1 ? 1 : factor;
 }
 
+/// All but coplanar, so that its circumcentre is made of rounding errors, which grow with this ratio: beyond it a
+/// thousandth of the radius would no longer be sure.
+bool is_flat_by_rounding(const JudgedCell& cell) {
+    constexpr double largest_condition = 1e12;
+    const CellPoints& p = cell.points;
+    const double product = squared_distance(p[1], p[0]) * squared_distance(p[2], p[0]) * squared_distance(p[3], p[0]);
+    const double least = std::sqrt(product) / largest_condition;
+    return !(std::abs(cell.sphere.six_volumes) >= least);
+}
+
 /// By property, the variation below which a cell is smooth; 0 where none counts.
 std::vector<double> smooth_limits(const Criteria& criteria) {
     std::vector<double> limits;
@@ -191,7 +201,7 @@ Proposal InsertionRule::propose(const JudgedCell& cell) const {
     const Circumsphere& sphere = cell.sphere;
     Proposal proposal;
     proposal.radius = std::sqrt(sphere.squared_radius);
-    if (!is_finite(sphere.center) || !std::isfinite(proposal.radius)) {
+    if (!is_finite(sphere.center) || !std::isfinite(proposal.radius) || is_flat_by_rounding(cell)) {
         proposal.reason = Reason::no_center;
         return proposal;
     }

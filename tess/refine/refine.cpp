@@ -289,13 +289,13 @@ class Refiner {
         return true;
     }
 
-    /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary.
+    /// False when the point comes nearer than l_min to a vertex: the nearest one is on its zone's boundary. Or when it
+    /// is not in the sphere of `start`.
     bool find_zone(const Vec3& point, Cell start, Zone& zone) {
-        search_.find(point, start, zone);
         const double limit = squared_l_min(point);
-        return std::ranges::all_of(zone.boundary, [&](const Facet& facet) {
-            return is_infinite(facet) || clear_of(facet_corners(facet), point, limit);
-        });
+        return search_.find(point, start, zone) && std::ranges::all_of(zone.boundary, [&](const Facet& facet) {
+                   return is_infinite(facet) || clear_of(facet_corners(facet), point, limit);
+               });
     }
 
     /// Rule 4: where the circumcentre would make a poor star, the first of some points around it that makes a fair

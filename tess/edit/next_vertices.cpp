@@ -300,8 +300,11 @@ class VertexChooser {
         }
         const Box3& hull = after_.domain.hull;
         std::erase_if(boxes, [](const Box3& box) { return box.empty(); });
+        // A vertex in a cell's sphere may have been refused for what is near its projection onto the hull box.
+        const double reach = 2 * resolution_.largest_l_min();
         for (Box3& box : boxes) {
-            box = {hull.clamped(box.lo), hull.clamped(box.hi)};
+            const Box3 near = box.grown(reach);
+            box = {hull.clamped(near.lo), hull.clamped(near.hi)};
         }
     }
 

@@ -160,7 +160,8 @@ TEST_CASE("R-trees, styles and statistics that other programs add are taken as t
     }
     dataset->SetMetadataItem("TITLE", "a site");
     GDALClose(dataset);
-    execute(path, "CREATE TABLE layer_styles (id INTEGER PRIMARY KEY, styleQML TEXT); ANALYZE");
+    execute(path,
+            "DROP TABLE layer_styles; CREATE TABLE layer_styles (id INTEGER PRIMARY KEY, styleQML TEXT); ANALYZE");
     CHECK(model_digest(load_model(path)) == model_digest(plain_model()));
     sqlite3* database = nullptr;
     REQUIRE(sqlite3_open(path.c_str(), &database) == SQLITE_OK);

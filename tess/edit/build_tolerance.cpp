@@ -17,7 +17,9 @@ namespace {
 constexpr double floor_share = 1e-4;    ///< of the diagonal
 constexpr double between_share = 1e-3;  ///< of the diagonal
 constexpr double poor_r2 = 0.9;
-constexpr std::uint64_t enough_by_default = 120'000;
+constexpr std::uint64_t enough_of_sample = 50;  ///< by default: few samples tell little of the field between
+constexpr std::uint64_t enough_at_least = 20'000;
+constexpr std::uint64_t enough_at_most = 120'000;
 constexpr std::uint64_t enough_asked_for = 1'000'000;
 
 std::vector<double> tolerances(const Criteria& criteria) {
@@ -93,7 +95,9 @@ std::uint64_t enough_vertices(const BuildOptions& options, const Model& model) {
         options.criteria.l_min_between > 0) {
         return given;
     }
-    return chooses_tolerance(options) ? enough_by_default : enough_asked_for;
+    return chooses_tolerance(options)
+               ? std::clamp(enough_of_sample * model.samples.size(), enough_at_least, enough_at_most)
+               : enough_asked_for;
 }
 
 void keep_l_min_between(Model& model, BuildReport& report) {

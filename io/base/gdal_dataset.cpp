@@ -113,12 +113,19 @@ std::string checked_head(const Source& source) {
         require_file(source, path);
     }
     std::string head = file_bytes(path, 0, 4096);
-    if (is_csv_name(path) && classify(head) != Content::text) {
-        throw InputError(source.describe() + (classify(head) == Content::utf16
-                                                  ? ": is UTF-16 text; save it as UTF-8"
-                                                  : ": holds binary data, not a table in text"));
+    if (is_csv_name(path) && classify(head) == Content::binary) {
+        throw InputError(source.describe() + ": holds binary data, not a table in text");
     }
     return head;
+}
+
+/// GDAL makes nonsense of it.
+void refuse_utf16(const Source& source, const std::string& head) {
+    if (classify(head) == Content::utf16) {
+        throw InputError(source.describe() +
+                         ": is UTF-16 text, which filters, statements and GDAL's options do not "
+                         "understand; save it as UTF-8");
+    }
 }
 
 }  // namespace
@@ -127,7 +134,7 @@ bool is_text_table(const Source& source) {
     const GdalScope scope(source.path);
     const std::string head = checked_head(source);
     const std::string path = plain_path(source.path);
-    if (path != source.path || is_csv_name(path)) {
+    if (path != source.path || is_csv_name(path) || classify(head) == Content::utf16) {
         return !head.empty();
     }
     return looks_like_text_table(head) &&
@@ -141,6 +148,7 @@ Dataset open_vector(const Source& source) {
     const std::string path = plain_path(source.path);
     const bool file = !is_connection(source.path);
     const std::string head = checked_head(source);
+    refuse_utf16(source, head);
     Dataset dataset = try_open(source.path, source);
     if (!dataset && file && path == source.path && looks_like_text_table(head)) {
         dataset = try_open("CSV:" + path, source);
@@ -151,6 +159,10 @@ Dataset open_vector(const Source& source) {
             ": no table that can be read (CSV, XLSX, ODS, XLS, GeoPackage, Shapefile, FlatGeobuf, GeoJSON, "
             "FileGDB, SQLite, MapInfo, PostGIS)" +
             reason(scope));
+    }
+    const std::string driver = dataset->GetDriver() == nullptr ? "" : dataset->GetDriver()->GetDescription();
+    if (scope.failed() && (driver == "XLSX" || driver == "ODS")) {  // texts would be missing, or stand for others
+        throw InputError(source.describe() + ": is damaged, or made to do harm" + reason(scope));
     }
     return dataset;
 }

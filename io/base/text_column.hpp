@@ -58,8 +58,7 @@ class TextColumn {
 
     void push_back(std::string_view cell) {
         if (size_ % rows_a_block == 0) {
-            finish_block();
-            blocks_.emplace_back();
+            begin_block();
         }
         Block& block = blocks_.back();
         block.letters.append(cell);
@@ -96,11 +95,19 @@ class TextColumn {
         std::vector<std::uint32_t> ends;
     };
 
-    void finish_block() {
+    /// With room as the block before needed it; what that one has too much is given back.
+    void begin_block() {
+        Block next;
         if (!blocks_.empty()) {
-            blocks_.back().letters.shrink_to_fit();
-            blocks_.back().ends.shrink_to_fit();
+            Block& last = blocks_.back();
+            next.letters.reserve(last.letters.size() + last.letters.size() / 16);
+            next.ends.reserve(rows_a_block);
+            if (last.letters.capacity() > last.letters.size() + last.letters.size() / 8) {
+                last.letters.shrink_to_fit();
+            }
+            last.ends.shrink_to_fit();
         }
+        blocks_.push_back(std::move(next));
     }
 
     std::vector<Block> blocks_;

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "io/base/gdal_scope.hpp"
+#include "io/base/utf16.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -90,45 +91,7 @@ bool LineReader::fill() {
 std::size_t LineReader::decode_utf16(std::size_t begin, std::size_t count) {
     const auto* const raw = reinterpret_cast<const unsigned char*>(buffer_.data() + begin);
     units_.insert(units_.end(), raw, raw + count);
-    std::string text;
-    std::size_t used = 0;
-    const auto unit = [&](std::size_t at) {
-        const unsigned lo = units_[encoding_ == Encoding::utf16_le ? at : at + 1];
-        const unsigned hi = units_[encoding_ == Encoding::utf16_le ? at + 1 : at];
-        return hi << 8U | lo;
-    };
-    for (; used + 1 < units_.size(); used += 2) {
-        unsigned code = unit(used);
-        if (code >= 0xD800 && code < 0xDC00) {
-            if (used + 3 >= units_.size()) {
-                break;  // its second half comes with the next bytes
-            }
-            const unsigned low = unit(used + 2);
-            const bool pair = low >= 0xDC00 && low < 0xE000;
-            code = pair ? 0x10000 + ((code - 0xD800) << 10U) + (low - 0xDC00) : 0xFFFD;
-            used += pair ? 2 : 0;
-        }
-        if (code == 0xFEFF) {
-            continue;  // the byte order mark
-        }
-        const auto put = [&](unsigned byte) { text += static_cast<char>(byte); };
-        if (code < 0x80) {
-            put(code);
-        } else if (code < 0x800) {
-            put(0xC0 | code >> 6U);
-            put(0x80 | (code & 0x3FU));
-        } else if (code < 0x10000) {
-            put(0xE0 | code >> 12U);
-            put(0x80 | (code >> 6U & 0x3FU));
-            put(0x80 | (code & 0x3FU));
-        } else {
-            put(0xF0 | code >> 18U);
-            put(0x80 | (code >> 12U & 0x3FU));
-            put(0x80 | (code >> 6U & 0x3FU));
-            put(0x80 | (code & 0x3FU));
-        }
-    }
-    units_.erase(units_.begin(), units_.begin() + static_cast<std::ptrdiff_t>(used));
+    const std::string text = utf16_text(units_, encoding_ == Encoding::utf16_le);
     std::copy(text.begin(), text.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin));
     return text.size();
 }

@@ -68,6 +68,8 @@ Heights meaning_of(const Table& log, const LogDepths& columns, const Holes& hole
         double collar = 0;
     };
     std::map<std::string, Top> tops;
+    const Hole* last = nullptr;
+    Top* top = nullptr;
     std::size_t falling = 0;
     std::size_t rising = 0;
     std::size_t positive = 0;
@@ -80,17 +82,18 @@ Heights meaning_of(const Table& log, const LogDepths& columns, const Holes& hole
         falling += *from > *to ? 1 : 0;
         rising += *from < *to ? 1 : 0;
         positive += *from > 0 || *to > 0 ? 1 : 0;
-        Top& top = tops[hole.id];
-        top = {std::max(top.highest, *from), hole.own_height};
+        top = &hole == last ? top : &tops[hole.id];
+        last = &hole;
+        *top = {std::max(top->highest, *from), hole.own_height};
     });
     if (falling == 0 || falling < 9 * rising) {
         return Heights::no;
     }
     std::size_t at_collar = 0;
     std::size_t at_zero = 0;
-    for (const auto& [id, top] : tops) {
-        at_collar += std::abs(top.highest - top.collar) <= 0.5 ? 1 : 0;
-        at_zero += std::abs(top.highest) <= 0.5 ? 1 : 0;
+    for (const auto& [id, found] : tops) {
+        at_collar += std::abs(found.highest - found.collar) <= 0.5 ? 1 : 0;
+        at_zero += std::abs(found.highest) <= 0.5 ? 1 : 0;
     }
     return 2 * at_collar > tops.size()                  ? Heights::elevations
            : positive == 0 && 2 * at_zero > tops.size() ? Heights::negative_depths
@@ -204,6 +207,8 @@ void note_beyond_length(const Table& log, const Holes& holes, const Crs& target,
         return;
     }
     std::map<std::string, double> deepest;  // as a share of the stated length
+    const Hole* last = nullptr;
+    double* share = nullptr;
     std::size_t beyond = 0;
     std::size_t records = 0;
     std::string first;
@@ -213,8 +218,9 @@ void note_beyond_length(const Table& log, const Holes& holes, const Crs& target,
             return;
         }
         const double length = hole.stated_length / depth_factor(log, hole.unit_factor, target);
-        double& share = deepest[hole.id];
-        share = std::max(share, *depth / length);
+        share = &hole == last ? share : &deepest[hole.id];
+        last = &hole;
+        *share = std::max(*share, *depth / length);
         ++records;
         if (*depth > 1.01 * length + 1 && ++beyond == 1) {
             first = fmt::format("line {}: {} in hole {} of {:.6g}", log.lines[row], *depth, hole.id, length);
@@ -224,8 +230,8 @@ void note_beyond_length(const Table& log, const Holes& holes, const Crs& target,
         return;
     }
     std::vector<double> shares;
-    for (const auto& [id, share] : deepest) {
-        shares.push_back(share);
+    for (const auto& [id, of_length] : deepest) {
+        shares.push_back(of_length);
     }
     std::ranges::sort(shares);
     const double middle = shares[shares.size() / 2];

@@ -361,8 +361,10 @@ Holes read_boreholes(const std::vector<PlacedTable>& collar_tables, const std::v
                                collar.unit_factor, surveyed});
         holes.at(id).deepest = collar.length;
     }
+    std::int32_t index = 0;
     for (auto& [id, hole] : holes) {
         const Collar& collar = collars.at(id);
+        hole.index = index++;
         hole.own_height = collar.own_height;
         hole.height_factor = collar.height_factor;
         hole.stated_length = collar.length;

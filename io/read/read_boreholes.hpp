@@ -27,6 +27,7 @@ struct Hole {
     double height_factor = 1;  ///< target units in a unit of those heights
     double stated_length = 0;  ///< in the target's unit; 0: not stated
     double deepest = 0;        ///< so far: the stated length; logs add theirs
+    std::int32_t index = 0;    ///< in the order of ids
 
     /// Where the hole ends: at its stated length or deepest log record, else at its last station.
     [[nodiscard]] double end() const { return deepest > 0 ? deepest : surveyed; }

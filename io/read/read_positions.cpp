@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "io/read/tables/area_of_use.hpp"
 #include "io/read/tables/degrees.hpp"
@@ -119,22 +120,23 @@ double height_sign(const Table& table, const PositionColumns& columns, ZPositive
 /// The codes in a column of coordinates that are none, by themselves or since the user says so.
 class NoCoordinates {
   public:
-    NoCoordinates(const Table& table, int column, const char* meaning, const std::vector<NullValue>& nulls)
+    /// \param values  the column's numbers
+    NoCoordinates(const Table& table, int column, const char* meaning, std::span<const double> values,
+                  const std::vector<NullValue>& nulls)
         : nulls_(nulls), names_{meaning} {
         if (column < 0) {
             return;
         }
         names_.push_back(header(table, column));
-        std::vector<double> values;
-        for (const std::string_view text : table.cells[static_cast<std::size_t>(column)]) {
-            values.push_back(parse_number(text).value_or(missing));
-        }
         for (const NullCode& found : null_codes(values)) {
             if (found.far) {
                 codes_.push_back(found.code);
             }
         }
     }
+
+    /// Can any number stand for none?
+    [[nodiscard]] bool empty() const { return codes_.empty() && nulls_.empty(); }
 
     /// A zero for all columns is no word on coordinates.
     [[nodiscard]] bool holds(std::string_view text, double value) const {
@@ -153,8 +155,30 @@ struct PositionReader {
     const Crs& crs;
     PositionColumns columns;
     double height_sign = 1;
-    std::array<NoCoordinates, 3> none;
+    std::vector<NoCoordinates> none{};  ///< an axis each
+    std::vector<Vec3> numbers{};        ///< a row each: what stands in the columns, NaN where that is no number
+    bool plain = false;                 ///< numbers that stand in columns are coordinates, whatever they are
 };
+
+/// Each cell is looked at once: what is no number, and what may stand for none, is looked at again by its row.
+PositionReader position_reader(const Table& table, const Crs& crs, const PositionColumns& columns, double height_sign,
+                               const std::vector<NullValue>& nulls) {
+    PositionReader reader{table, crs, columns, height_sign};
+    reader.numbers.assign(table.rows(), nowhere);
+    reader.plain = columns.plane() && columns.z >= 0;
+    std::vector<double> values(table.rows());
+    int axis = 0;
+    for (const auto& [column, meaning] : {std::pair{columns.x, "x"}, {columns.y, "y"}, {columns.z, "z"}}) {
+        for (std::size_t row = 0; row < table.rows() && column >= 0; ++row) {
+            values[row] = parse_number(cell(table, column, row)).value_or(missing);
+            reader.numbers[row][axis] = values[row];
+        }
+        reader.none.emplace_back(table, column, meaning, values, nulls);
+        reader.plain = reader.plain && reader.none.back().empty();
+        ++axis;
+    }
+    return reader;
+}
 
 /// Degrees, minutes and seconds on axis 0 (longitude) or 1, or why they are none here.
 std::optional<double> degrees_in(std::string_view text, int axis, const Crs& crs, std::string& problem) {
@@ -198,16 +222,22 @@ double coordinate(const PositionReader& reader, int axis, int column, std::size_
 
 /// A row's position; nowhere, with the reason in `problem`, when it has none that is acceptable.
 Vec3 position(const PositionReader& reader, std::size_t row, std::string& problem) {
-    const auto& [table, crs, columns, sign, none] = reader;
+    const Table& table = reader.table;
+    const Crs& crs = reader.crs;
+    const PositionColumns& columns = reader.columns;
     const bool from_columns = columns.plane();
     if (!from_columns && !table.points[row]) {
         problem = "no point geometry";
         return nowhere;
     }
-    const Vec3 point = table.points.empty() ? nowhere : table.points[row].value_or(nowhere);
-    const Vec3 result{coordinate(reader, 0, from_columns ? columns.x : -1, row, point.x, problem),
-                      coordinate(reader, 1, from_columns ? columns.y : -1, row, point.y, problem),
-                      coordinate(reader, 2, columns.z, row, point.z, problem)};
+    Vec3 result = reader.numbers[row];
+    result.z *= reader.height_sign;
+    if (!reader.plain || !is_finite(result)) {
+        const Vec3 point = table.points.empty() ? nowhere : table.points[row].value_or(nowhere);
+        result = {coordinate(reader, 0, from_columns ? columns.x : -1, row, point.x, problem),
+                  coordinate(reader, 1, from_columns ? columns.y : -1, row, point.y, problem),
+                  coordinate(reader, 2, columns.z, row, point.z, problem)};
+    }
     if (!problem.empty()) {
         return nowhere;
     }
@@ -259,20 +289,16 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
     Crs crs = resolved_crs(source, table.crs, general_crs, hint);
     PlacedTable placed{std::move(table), std::move(crs), {}};
     const Table& held = placed.table;
-    const PositionReader reader{
-        held,
-        placed.crs,
-        columns,
-        height_sign(held, columns, options.z_positive, diagnostics),
-        {NoCoordinates(held, columns.x, "x", options.nulls), NoCoordinates(held, columns.y, "y", options.nulls),
-         NoCoordinates(held, columns.z, "z", options.nulls)}};
+    PositionReader reader = position_reader(held, placed.crs, columns,
+                                            height_sign(held, columns, options.z_positive, diagnostics), options.nulls);
     for (std::size_t row = 0; row < placed.table.rows(); ++row) {
         std::string problem;
-        placed.points.push_back(position(reader, row, problem));
+        reader.numbers[row] = position(reader, row, problem);
         if (!problem.empty()) {
             diagnostics.reject(placed.table.file, placed.table.lines[row], problem);
         }
     }
+    placed.points = std::move(reader.numbers);
     if (options.some_usable) {
         require_usable_row(placed, diagnostics, first_rejection);
     }

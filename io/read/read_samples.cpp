@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "io/base/free_memory.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -23,10 +24,29 @@ struct LogColumns {
 
 /// A record of a log that has a place in a hole and a value.
 struct LogRow {
-    std::size_t row = 0;
+    std::uint32_t row = 0;
     Hole* hole = nullptr;
     double from = 0;  ///< in the target's unit
     double to = 0;
+};
+
+/// Holes by id; rows of one hole mostly follow each other.
+class HoleFinder {
+  public:
+    explicit HoleFinder(Holes& holes) : holes_(holes) {}
+
+    /// nullptr: no such hole.
+    Hole* find(std::string_view id) {
+        if (last_ == nullptr || last_->id != id) {
+            const auto found = holes_.find(id);
+            last_ = found == holes_.end() ? nullptr : &found->second;
+        }
+        return last_;
+    }
+
+  private:
+    Holes& holes_;
+    Hole* last_ = nullptr;
 };
 
 LogColumns log_columns(const Table& table, const ColumnNames& names) {
@@ -49,35 +69,65 @@ LogColumns log_columns(const Table& table, const ColumnNames& names) {
     return columns;
 }
 
-/// Puts a row's values into a record.
-void set_values(SampleRecord& record, const std::vector<ValueColumn>& columns, std::size_t row,
-                std::size_t properties) {
-    record.values.assign(properties, missing);
+/// Which rows have a value.
+std::vector<bool> filled_rows(const std::vector<ValueColumn>& columns, std::size_t rows) {
+    std::vector<bool> result(rows, false);
     for (const ValueColumn& column : columns) {
-        record.values[column.property] = column.values[row];
-        if (!column.censored.empty()) {
-            record.censored.resize(properties, Censoring::none);
-            record.censored[column.property] = column.censored[row];
+        for (std::size_t row = 0; row < rows; ++row) {
+            if (!std::isnan(column.values[row])) {
+                result[row] = true;
+            }
         }
     }
+    return result;
 }
 
-bool has_value(const std::vector<ValueColumn>& columns, std::size_t row) {
-    return std::ranges::any_of(columns, [&](const ValueColumn& column) { return !std::isnan(column.values[row]); });
+/// Appends the values of the rows to the samples, which have their places already; each column is given up then. Where
+/// a table is all there is, its columns become the samples'.
+template <typename Rows, typename RowOf>
+void append_values(std::vector<ValueColumn>& columns, const Rows& rows, std::size_t properties, Samples& samples,
+                   const RowOf& row_of) {
+    const std::size_t before = samples.size() - rows.size();
+    const bool whole = before == 0 && !columns.empty() && columns.front().values.size() == rows.size() &&
+                       std::ranges::is_sorted(rows, {}, row_of);
+    samples.values.resize(properties);
+    for (std::vector<double>& column : samples.values) {
+        column.resize(before, missing);
+    }
+    samples.censored.resize(samples.censored.empty() ? 0 : properties);
+    for (std::vector<Censoring>& column : samples.censored) {
+        column.resize(samples.size(), Censoring::none);
+    }
+    for (ValueColumn& column : columns) {
+        std::vector<double>& values = samples.values[column.property];
+        if (whole) {
+            values = std::move(column.values);
+        } else {
+            values.reserve(before == 0 ? rows.size() : 0);
+            for (const auto& row : rows) {
+                values.push_back(column.values[row_of(row)]);
+            }
+        }
+        for (std::size_t i = 0; i < rows.size() && !column.censored.empty(); ++i) {
+            samples.set_censoring(column.property, before + i, column.censored[row_of(rows[i])]);
+        }
+        column = {};
+    }
+    for (std::vector<double>& column : samples.values) {
+        column.resize(samples.size(), missing);
+    }
 }
 
 /// Where a record lies in which hole, or why it lies nowhere.
-LogRow locate(const Table& table, const LogColumns& columns, std::size_t row, Holes& holes, const Crs& target,
+LogRow locate(const Table& table, const LogColumns& columns, std::size_t row, HoleFinder& holes, const Crs& target,
               std::string& problem) {
-    LogRow result{row, nullptr, 0, 0};
-    const std::string id(columns.id < 0 ? std::string_view(table.stated.hole_names.front())
-                                        : table.cells[static_cast<std::size_t>(columns.id)][row]);
-    const auto hole = holes.find(id);
-    if (hole == holes.end()) {
+    const std::string_view id = columns.id < 0 ? std::string_view(table.stated.hole_names.front())
+                                               : table.cells[static_cast<std::size_t>(columns.id)][row];
+    LogRow result{static_cast<std::uint32_t>(row), holes.find(id), 0, 0};
+    if (result.hole == nullptr) {
         problem = id.empty() ? "no id" : fmt::format("hole {} has no collar", id);
         return result;
     }
-    result.hole = &hole->second;
     const double factor = depth_factor(table, result.hole->unit_factor, target);
     const auto depth = [&](int column) {
         return parse_depth(table, column, row, factor, target.metres_per_unit, problem);
@@ -95,27 +145,30 @@ LogRow locate(const Table& table, const LogColumns& columns, std::size_t row, Ho
 
 /// Rejects intervals that begin above the end of an earlier one of the same hole, by more than rounding.
 void reject_overlaps(const Table& table, std::vector<LogRow>& rows, Diagnostics& diagnostics) {
-    std::ranges::stable_sort(rows, {}, [](const LogRow& row) { return std::tie(row.hole->id, row.from, row.to); });
-    std::vector<LogRow> kept;
+    const auto place = [](const LogRow& row) { return std::tie(row.hole->index, row.from, row.to, row.row); };
+    if (!std::ranges::is_sorted(rows, {}, place)) {
+        std::ranges::sort(rows, {}, place);
+    }
     std::vector<Rejected> overlaps;
-    const LogRow* before = nullptr;  // the interval above
+    std::size_t kept = 0;
+    LogRow before;  // the interval above
     for (const LogRow& row : rows) {
         const bool test = row.from == row.to && !table.stated.meanings.empty();  // at a depth, amidst intervals
-        const bool same_hole = before != nullptr && before->hole == row.hole;
+        const bool same_hole = kept > 0 && before.hole == row.hole;
         const double rounding = 1e-3 * (row.to - row.from);
-        const bool repeated = same_hole && row.from == before->from && row.to == before->to;
-        if (!test && same_hole && (repeated || row.from < before->to - rounding)) {
+        const bool repeated = same_hole && row.from == before.from && row.to == before.to;
+        if (!test && same_hole && (repeated || row.from < before.to - rounding)) {
             overlaps.push_back({table.file, table.lines[row.row],
                                 fmt::format("hole {}: the interval overlaps the one on line {}, which counts",
-                                            row.hole->id, table.lines[before->row])});
+                                            row.hole->id, table.lines[before.row])});
             continue;
         }
-        kept.push_back(row);
-        before = test ? before : &row;
+        before = test ? before : row;
+        rows[kept++] = row;
     }
+    rows.resize(kept);
     std::ranges::sort(overlaps, {}, &Rejected::line);
     std::ranges::move(overlaps, std::back_inserter(diagnostics.rejected));
-    rows = std::move(kept);
 }
 
 void note_empty_records(const Table& table, std::size_t count, Diagnostics& diagnostics) {
@@ -125,24 +178,41 @@ void note_empty_records(const Table& table, std::size_t count, Diagnostics& diag
     }
 }
 
+/// Of the first table, which may be the only big one; later ones grow what there is.
+void reserve_places(Samples& samples, std::size_t count) {
+    const std::size_t room = samples.size() == 0 ? count : 0;
+    samples.positions.reserve(room);
+    samples.borehole.reserve(room);
+    samples.depth.reserve(room);
+    samples.length.reserve(room);
+}
+
+void give_up_text(Table& table) {
+    table.cells.assign(table.columns.size(), {});
+    give_back_memory();
+}
+
 }  // namespace
 
-void read_log(const Table& table, Holes& holes, const Crs& target, const SiteInputs& inputs,
-              PropertyCatalogue& catalogue, std::vector<SampleRecord>& samples, Diagnostics& diagnostics) {
+void read_log(Table& table, Holes& holes, const Crs& target, const SiteInputs& inputs, PropertyCatalogue& catalogue,
+              Samples& samples, Diagnostics& diagnostics) {
     const std::size_t first_rejection = diagnostics.rejected.size();
     const LogColumns columns = log_columns(table, inputs.columns);
-    const std::vector<ValueColumn> values = catalogue.read(table, inputs.columns, diagnostics);
+    std::vector<ValueColumn> values = catalogue.read(table, inputs.columns, diagnostics);
+    const std::vector<bool> filled = filled_rows(values, table.rows());
+    HoleFinder finder(holes);
     std::vector<LogRow> rows;
+    rows.reserve(table.rows());
     std::size_t empty = 0;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         std::string problem;
-        const LogRow located = locate(table, columns, row, holes, target, problem);
+        const LogRow located = locate(table, columns, row, finder, target, problem);
         if (!problem.empty()) {
             diagnostics.reject(table.file, table.lines[row], problem);
             continue;
         }
         located.hole->deepest = std::max(located.hole->deepest, located.to);
-        if (has_value(values, row)) {
+        if (filled[row]) {
             rows.push_back(located);
         } else {
             ++empty;
@@ -155,34 +225,49 @@ void read_log(const Table& table, Holes& holes, const Crs& target, const SiteInp
         throw_no_usable_row(table, diagnostics, first_rejection);
     }
     note_empty_records(table, empty, diagnostics);
+    give_up_text(table);
+    reserve_places(samples, rows.size());
     for (const LogRow& row : rows) {
         const double depth = row.from + (row.to - row.from) / 2;
-        samples.push_back({row.hole->path.position(depth), row.hole->id, depth, row.to - row.from, {}});
-        set_values(samples.back(), values, row.row, catalogue.properties().size());
+        samples.positions.push_back(row.hole->path.position(depth));
+        samples.borehole.push_back(row.hole->index);
+        samples.depth.push_back(depth);
+        samples.length.push_back(row.to - row.from);
     }
+    append_values(values, rows, catalogue.properties().size(), samples,
+                  [](const LogRow& row) { return std::size_t{row.row}; });
 }
 
-void read_loose_samples(const PlacedTable& placed, const SiteInputs& inputs, PropertyCatalogue& catalogue,
-                        std::vector<SampleRecord>& samples, Diagnostics& diagnostics) {
+void read_loose_samples(PlacedTable& placed, const SiteInputs& inputs, PropertyCatalogue& catalogue, Samples& samples,
+                        Diagnostics& diagnostics) {
     const std::size_t first_rejection = diagnostics.rejected.size();
-    const std::vector<ValueColumn> values = catalogue.read(placed.table, inputs.columns, diagnostics);
-    const std::size_t before = samples.size();
+    std::vector<ValueColumn> values = catalogue.read(placed.table, inputs.columns, diagnostics);
+    const std::vector<bool> filled = filled_rows(values, placed.table.rows());
+    std::vector<std::uint32_t> rows;
     std::size_t empty = 0;
     for (std::size_t row = 0; row < placed.table.rows(); ++row) {
-        if (!placed.usable(row)) {
-            continue;  // rejected when its position was read
+        const bool usable = placed.usable(row);  // else rejected when its position was read
+        if (usable && filled[row]) {
+            rows.push_back(static_cast<std::uint32_t>(row));
         }
-        if (!has_value(values, row)) {
-            ++empty;
-            continue;
-        }
-        samples.push_back({placed.points[row], "", missing, 0, {}});
-        set_values(samples.back(), values, row, catalogue.properties().size());
+        empty += usable && !filled[row] ? 1 : 0;
     }
-    if (samples.size() == before && !values.empty()) {
+    if (rows.empty() && !values.empty()) {
         throw_no_usable_row(placed.table, diagnostics, first_rejection);
     }
     note_empty_records(placed.table, empty, diagnostics);
+    give_up_text(placed.table);
+    const std::size_t size = samples.size() + rows.size();
+    reserve_places(samples, rows.size());
+    for (const std::uint32_t row : rows) {
+        samples.positions.push_back(placed.points[row]);
+    }
+    placed.points = {};
+    samples.borehole.resize(size, -1);
+    samples.depth.resize(size, missing);
+    samples.length.resize(size, 0);
+    append_values(values, rows, catalogue.properties().size(), samples,
+                  [](std::uint32_t row) { return std::size_t{row}; });
 }
 
 }  // namespace terratet

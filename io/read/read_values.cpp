@@ -12,27 +12,16 @@
 #include <set>
 #include <string_view>
 
+#include "io/base/free_memory.hpp"
 #include "io/base/lower_case.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/tables/column_numbers.hpp"
 #include "io/read/tables/qualifiers.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 
 namespace {
-
-bool is_null_word(std::string_view text) {
-    if (text.size() > 6) {
-        return false;
-    }
-    static constexpr std::array<std::string_view, 9> words{"",     "na",     "n/a",  "#n/a", "nan",
-                                                           "null", "(null)", "none", "-"};
-    return std::ranges::find(words, lower_case(text)) != words.end();
-}
-
-bool is_number(std::string_view text) {
-    return parse_number(text) || parse_bound(text);
-}
 
 /// Header without its bracketed unit, and the unit: "Cu (%)" → "Cu", "%".
 std::pair<std::string, std::string> split_unit(const std::string& header) {
@@ -53,22 +42,21 @@ bool is_unnamed(const std::string& header) {
 }
 
 /// Whole numbers that number or count records: by the column's name, or since they count up from a great number.
-bool is_record_number(const std::string& header, const TextColumn& column) {
+bool is_record_number(const std::string& header, std::span<const double> values) {
     static constexpr std::array<std::string_view, 24> names{
         "n",     "no",       "nr",       "num",      "number", "count",    "index", "idx",
         "seq",   "objectid", "oid",      "fid",      "ogcfid", "gid",      "lab",   "labno",
         "labnr", "labid",    "sampleno", "samplenr", "sampid", "sampleid", "batch", "batchno"};
     const bool named = std::ranges::find(names, normal_header(header)) != names.end();
-    std::optional<double> last;
+    double last = missing;
     bool counts = true;
     std::size_t count = 0;
-    for (const std::string_view text : column) {
-        const std::optional<double> value = parse_number(text);
-        if (!value) {
+    for (const double value : values) {
+        if (std::isnan(value)) {
             continue;
         }
-        counts = counts && *value >= 1e5 && (!last || *value == *last + 1);
-        if (*value != std::trunc(*value) || (!named && !counts)) {
+        counts = counts && value >= 1e5 && (count == 0 || value == last + 1);
+        if (value != std::trunc(value) || (!named && !counts)) {
             return false;
         }
         last = value;
@@ -100,13 +88,15 @@ std::vector<bool> columns_with_meaning(const Table& table, const ColumnNames& co
 
 /// The unit that a column states, in its header or beside it.
 std::string unit_of(const Table& table, std::size_t column) {
-    return table.stated.units.empty() ? split_unit(table.columns[column]).second : table.stated.units[column];
+    const bool stated = !table.stated.units.empty() && !table.stated.units[column].empty();
+    return stated ? table.stated.units[column] : split_unit(table.columns[column]).second;
 }
 
 /// A column taken for a property.
 struct Choice {
     Property property;
     std::size_t column;
+    Numbers numbers{};  ///< of a continuous one
 };
 
 /// May a column of words be classes: words that come again, not all the same?
@@ -149,19 +139,17 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         if (known[column]) {
             continue;
         }
-        const auto filled =
-            std::ranges::count_if(table.cells[column], [](const auto& text) { return !is_null_word(text); });
-        const auto numbers = std::ranges::count_if(table.cells[column], is_number);
+        Numbers numbers = numbers_of(table.cells[column]);
         const std::string& name = table.columns[column];
         const bool repeated = std::ranges::any_of(
             result, [&](const Choice& choice) { return lower_case(choice.property.name) == lower_case(name); });
-        if (numbers == 0) {
+        if (numbers.count == 0) {
             if (may_be_classes(table.cells[column])) {
                 classes.push_back(column);
             }
             continue;
         }
-        if (is_record_number(name, table.cells[column])) {
+        if (is_record_number(name, numbers.values)) {
             diagnostics.note(
                 fmt::format("{}: column {} is left out: whole numbers under a name of records, not of a "
                             "measurement; `properties` {} takes it",
@@ -173,14 +161,15 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
                                          repeated ? "the first of that name is used" : "it has no name of its own"));
             continue;
         }
-        if (2 * numbers < filled) {
+        if (2 * numbers.count < numbers.filled()) {
             diagnostics.note(
                 fmt::format("{}: column {} has numbers in only {} of {} cells and is left out; `properties` {} "
                             "takes them, {}:categorical takes all as classes",
-                            table.file, name, numbers, filled, name, name));
+                            table.file, name, numbers.count, numbers.filled(), name, name));
             continue;
         }
-        result.push_back({Property{name, unit_of(table, column), Scale::linear, Kind::continuous, {}}, column});
+        result.push_back(
+            {Property{name, unit_of(table, column), Scale::linear, Kind::continuous, {}}, column, std::move(numbers)});
     }
     note_classes(table, classes, diagnostics);
     return result;
@@ -202,11 +191,12 @@ std::vector<Choice> wanted_columns(const Table& table, const std::vector<Propert
             continue;
         }
         const auto column = static_cast<std::size_t>(found - table.columns.begin());
-        if (property.kind == Kind::continuous && std::ranges::none_of(table.cells[column], is_number)) {
+        Numbers numbers = property.kind == Kind::continuous ? numbers_of(table.cells[column]) : Numbers{};
+        if (property.kind == Kind::continuous && numbers.count == 0) {
             throw InputError(fmt::format("{}: column {} holds no number; for classes write `properties` {}:categorical",
                                          table.file, *found, property.name));
         }
-        result.push_back({property, column});
+        result.push_back({property, column, std::move(numbers)});
         if (property.unit.empty()) {
             result.back().property.unit = unit_of(table, column);
         }
@@ -244,55 +234,71 @@ void drop_without_logarithm(std::vector<double>& values, const std::string& wher
     }
 }
 
-ValueColumn continuous_values(const Table& table, const Choice& choice, int qualifier,
-                              const std::vector<NullValue>& nulls, std::size_t index, Diagnostics& diagnostics) {
-    const std::string where = table.file + ": column " + table.columns[choice.column];
+/// Cells that the user says are none lose their values; they are no rejections.
+void drop_nulls(Numbers& numbers, const Table& table, const Choice& choice, const std::vector<NullValue>& nulls,
+                Diagnostics& diagnostics) {
     const std::array names{table.columns[choice.column], choice.property.name};
-    std::map<std::string, std::size_t> told;  // by nulls
-    std::size_t qualified = 0;
-    ValueColumn result{index, {}};
-    std::vector<Censoring> censored;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::map<std::string, std::size_t> told;
+    std::vector<bool> none(nulls.empty() ? 0 : table.rows());
+    for (std::size_t row = 0; row < none.size(); ++row) {
         const std::string_view text = table.cells[choice.column][row];
-        std::optional<double> value = parse_number(text);
-        censored.push_back(Censoring::none);
-        if (!value && (value = parse_bound(text))) {
-            censored.back() = is_upper_bound(text) ? Censoring::below : Censoring::above;
-        }
-        if (!nulls.empty() && !text.empty() && says_null(nulls, names, text, value)) {
+        const double value = numbers.values[row];
+        none[row] =
+            !text.empty() && says_null(nulls, names, text, std::isnan(value) ? std::nullopt : std::optional(value));
+        if (none[row]) {
             ++told[std::string(text)];
-            value.reset();
-            censored.back() = Censoring::none;
-        } else if (value && qualifier >= 0) {
-            const Censoring said = qualifier_of(table.cells[static_cast<std::size_t>(qualifier)][row]);
-            qualified += said != Censoring::none ? 1 : 0;
-            censored.back() = censored.back() | said;
-        } else if (!value && !is_null_word(text)) {
-            diagnostics.reject(table.file, table.lines[row],
-                               fmt::format("column {}: '{}' is not a number; the record's other values are used",
-                                           table.columns[choice.column], text));
+            numbers.values[row] = missing;
         }
-        result.values.push_back(value.value_or(missing));
     }
-    drop_codes(result.values, table, choice.column, diagnostics);
+    std::erase_if(numbers.words, [&](std::uint32_t row) { return !none.empty() && none[row]; });
+    for (const auto& [text, count] : told) {
+        diagnostics.note(fmt::format("column {}: {} cells of {} are no value, as `nulls` say ({})", names[0], count,
+                                     text, table.file));
+    }
+}
+
+/// Values that a column of signs calls bounds; how many.
+std::size_t qualify(Numbers& numbers, const TextColumn& signs) {
+    std::size_t qualified = 0;
+    for (std::size_t row = 0; row < numbers.values.size(); ++row) {
+        const Censoring said = std::isnan(numbers.values[row]) ? Censoring::none : qualifier_of(signs[row]);
+        if (said != Censoring::none) {
+            numbers.censored.resize(numbers.values.size(), Censoring::none);
+            numbers.censored[row] = numbers.censored[row] | said;
+            ++qualified;
+        }
+    }
+    return qualified;
+}
+
+ValueColumn continuous_values(const Table& table, Choice choice, int qualifier, const std::vector<NullValue>& nulls,
+                              std::size_t index, Diagnostics& diagnostics) {
+    const std::string where = table.file + ": column " + table.columns[choice.column];
+    Numbers numbers = std::move(choice.numbers);
+    drop_nulls(numbers, table, choice, nulls, diagnostics);
+    const auto signs = static_cast<std::size_t>(std::max(qualifier, 0));
+    const std::size_t qualified = qualifier < 0 ? 0 : qualify(numbers, table.cells[signs]);
+    for (const std::uint32_t row : numbers.words) {
+        diagnostics.reject(table.file, table.lines[row],
+                           fmt::format("column {}: '{}' is not a number; the record's other values are used",
+                                       table.columns[choice.column], table.cells[choice.column][row]));
+    }
+    drop_codes(numbers.values, table, choice.column, diagnostics);
     if (choice.property.scale == Scale::log10) {
-        drop_without_logarithm(result.values, where, diagnostics);
+        drop_without_logarithm(numbers.values, where, diagnostics);
     }
     std::size_t bounds = 0;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        censored[row] = std::isnan(result.values[row]) ? Censoring::none : censored[row];
-        bounds += censored[row] != Censoring::none ? 1 : 0;
+    for (std::size_t row = 0; row < numbers.censored.size(); ++row) {
+        Censoring& censored = numbers.censored[row];
+        censored = std::isnan(numbers.values[row]) ? Censoring::none : censored;
+        bounds += censored != Censoring::none ? 1 : 0;
     }
-    for (const auto& [text, count] : told) {
-        diagnostics.note(fmt::format("column {}: {} cells of {} are no value, as `nulls` say ({})",
-                                     table.columns[choice.column], count, text, table.file));
-    }
+    ValueColumn result{index, std::move(numbers.values)};
     if (bounds > 0) {
-        const std::string by = qualified == 0 ? ""
-                                              : fmt::format(", {} of them by column {}", qualified,
-                                                            table.columns[static_cast<std::size_t>(qualifier)]);
+        const std::string by =
+            qualified == 0 ? "" : fmt::format(", {} of them by column {}", qualified, table.columns[signs]);
         diagnostics.note(fmt::format("{}: {} censored values (<, >) count as their bound{}", where, bounds, by));
-        result.censored = std::move(censored);
+        result.censored = std::move(numbers.censored);
     }
     return result;
 }
@@ -345,10 +351,9 @@ std::size_t PropertyCatalogue::index_of(const Property& property) {
     return static_cast<std::size_t>(found - properties_.begin());
 }
 
-std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const ColumnNames& columns,
-                                                 Diagnostics& diagnostics) {
+std::vector<ValueColumn> PropertyCatalogue::read(Table& table, const ColumnNames& columns, Diagnostics& diagnostics) {
     seen_columns_.insert(seen_columns_.end(), table.columns.begin(), table.columns.end());
-    const std::vector<Choice> choices =
+    std::vector<Choice> choices =
         wanted_.empty() ? numeric_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
     if (choices.empty() && wanted_.empty() && !table.stated.one_of_several) {
         throw InputError(
@@ -361,14 +366,21 @@ std::vector<ValueColumn> PropertyCatalogue::read(const Table& table, const Colum
     }
     const std::vector<int> qualified_by = qualifiers(table, columns);
     std::vector<ValueColumn> result;
-    for (const Choice& choice : choices) {
+    for (Choice& choice : choices) {
         const std::size_t index = index_of(choice.property);
         std::vector<std::string>& classes = properties_[index].classes;
-        result.push_back(
-            choice.property.kind == Kind::categorical
-                ? ValueColumn{index, class_values(table, choice, classes)}
-                : continuous_values(table, choice, qualified_by[choice.column], nulls_, index, diagnostics));
+        const int qualifier = qualified_by[choice.column];
+        result.push_back(choice.property.kind == Kind::categorical
+                             ? ValueColumn{index, class_values(table, choice, classes)}
+                             : continuous_values(table, std::move(choice), qualifier, nulls_, index, diagnostics));
     }
+    const std::vector<bool> known = columns_with_meaning(table, columns);
+    for (std::size_t column = 0; column < table.cells.size(); ++column) {
+        if (!known[column]) {
+            table.cells[column] = {};
+        }
+    }
+    give_back_memory();
     return result;
 }
 

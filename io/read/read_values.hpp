@@ -38,7 +38,8 @@ class PropertyCatalogue {
     /// values that a column of signs beside them qualifies (io/read/tables/qualifiers.hpp); any other text is rejected
     /// with line and column, the record's other values are used. A table without any wanted property gives nothing
     /// (noted). Throws InputError: no numeric column (lists those there are), or no number in a wanted one.
-    std::vector<ValueColumn> read(const Table& table, const ColumnNames& columns, Diagnostics& diagnostics);
+    /// The text of columns that carry no known meaning is given up: values take its room.
+    std::vector<ValueColumn> read(Table& table, const ColumnNames& columns, Diagnostics& diagnostics);
 
     [[nodiscard]] const std::vector<Property>& properties() const { return properties_; }
 

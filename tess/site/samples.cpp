@@ -121,23 +121,64 @@ void Samples::set_censoring(std::size_t property, std::size_t sample, Censoring 
     censored[property][sample] = censoring;
 }
 
+namespace {
+
+/// Whole numbers in the order of doubles; NaN last, zeros alike.
+std::uint64_t in_order(double value) {
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
+    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);
+    return std::isnan(value) ? ~std::uint64_t{0} : (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+int compare_samples(const Samples& samples, std::uint32_t a, std::uint32_t b) {
+    const auto owner_a = static_cast<std::uint32_t>(samples.borehole[a]);  // −1, loose, becomes the largest
+    const auto owner_b = static_cast<std::uint32_t>(samples.borehole[b]);
+    if (owner_a != owner_b) {
+        return owner_a < owner_b ? -1 : 1;
+    }
+    if (const int depth = compare(samples.depth[a], samples.depth[b])) {
+        return depth;
+    }
+    const int place = compare(samples.positions[a], samples.positions[b]);
+    return place != 0 ? place : compare_values(samples, a, b);
+}
+
+/// What settles most comparisons, side by side in memory.
+struct OrderKey {
+    std::uint32_t owner;
+    std::uint32_t index;
+    std::uint64_t place;
+    std::uint64_t beside;
+};
+
+}  // namespace
+
 std::vector<std::uint32_t> canonical_order(const Samples& samples) {
     std::vector<std::uint32_t> order(samples.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-        const auto owner_a = static_cast<std::uint32_t>(samples.borehole[a]);  // −1, loose, becomes the largest
-        const auto owner_b = static_cast<std::uint32_t>(samples.borehole[b]);
-        if (owner_a != owner_b) {
-            return owner_a < owner_b;
+    const auto before = [&](std::uint32_t a, std::uint32_t b) { return compare_samples(samples, a, b) < 0; };
+    if (std::ranges::is_sorted(order, before)) {
+        return order;
+    }
+    const bool no_depth = std::ranges::all_of(
+        order, [&](std::uint32_t i) { return samples.borehole[i] >= 0 || std::isnan(samples.depth[i]); });
+    std::vector<OrderKey> keys(samples.size());
+    for (const std::uint32_t i : order) {
+        const Vec3& place = samples.positions[i];
+        const bool by_place = no_depth && samples.borehole[i] < 0;
+        keys[i] = {static_cast<std::uint32_t>(samples.borehole[i]), i, in_order(by_place ? place.x : samples.depth[i]),
+                   in_order(by_place ? place.y : place.x)};
+    }
+    std::ranges::sort(keys, [&](const OrderKey& a, const OrderKey& b) {
+        if (a.owner != b.owner) {
+            return a.owner < b.owner;
         }
-        if (const int depth = compare(samples.depth[a], samples.depth[b])) {
-            return depth < 0;
+        if (a.place != b.place) {
+            return a.place < b.place;
         }
-        if (const int place = compare(samples.positions[a], samples.positions[b])) {
-            return place < 0;
-        }
-        return compare_values(samples, a, b) < 0;
+        return a.beside != b.beside ? a.beside < b.beside : before(a.index, b.index);
     });
+    std::ranges::transform(keys, order.begin(), &OrderKey::index);
     return order;
 }
 

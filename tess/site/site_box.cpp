@@ -28,6 +28,7 @@ struct Unit {
 
 std::vector<Unit> units_of(const Site& site) {
     std::vector<Unit> units;
+    units.reserve(site.boreholes.size() + static_cast<std::size_t>(std::ranges::count(site.samples.borehole, -1)));
     for (std::size_t i = 0; i < site.boreholes.size(); ++i) {
         units.push_back({site.boreholes[i].collar, static_cast<std::int32_t>(i), 0});
     }
@@ -49,6 +50,7 @@ Vec3 middle_of(const std::vector<Unit>& units) {
     Vec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> numbers;
+        numbers.reserve(units.size());
         for (const Unit& unit : units) {
             numbers.push_back(unit.place[axis]);
         }
@@ -67,11 +69,16 @@ std::vector<Unit> far_off(const Site& site, double metres_per_unit) {
     for (Unit& unit : units) {
         unit.distance = distance(unit.place, middle);
     }
-    std::ranges::sort(units, [](const Unit& a, const Unit& b) {
+    const auto farther = [](const Unit& a, const Unit& b) {
         return std::tie(b.distance, a.place, a.borehole) < std::tie(a.distance, b.place, b.borehole);
-    });
+    };
     const std::size_t most = std::max<std::size_t>(1, units.size() / 4);
+    std::ranges::nth_element(units, units.begin() + static_cast<std::ptrdiff_t>(most), farther);
     const double others = units[most].distance;
+    const double least = std::max(far_off_metres / metres_per_unit, times_the_others_at_origin * others);
+    const auto near = std::partition(units.begin(), units.begin() + static_cast<std::ptrdiff_t>(most),
+                                     [&](const Unit& unit) { return unit.distance > least; });
+    std::sort(units.begin(), near, farther);
     std::size_t count = 0;
     for (; count < most; ++count) {
         const Unit& unit = units[count];
@@ -105,7 +112,7 @@ SiteBox site_box(const Site& site, double metres_per_unit) {
         }
     }
     for (std::size_t i = 0; i < site.samples.size(); ++i) {
-        if (!holes.contains(site.samples.borehole[i]) && !samples.contains(i)) {
+        if (result.far_off.empty() || (!holes.contains(site.samples.borehole[i]) && !samples.contains(i))) {
             result.box.extend(site.samples.positions[i]);
         }
     }

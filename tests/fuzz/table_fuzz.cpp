@@ -91,7 +91,8 @@ void check_table(const Table& table) {
     for (const auto& wanted : asked) {
         try {
             PropertyCatalogue catalogue(wanted);
-            for (const ValueColumn& column : catalogue.read(table, {}, diagnostics)) {
+            Table given = table;
+            for (const ValueColumn& column : catalogue.read(given, {}, diagnostics)) {
                 require(column.property < catalogue.properties().size() && column.values.size() == table.rows());
                 require(column.censored.empty() || column.censored.size() == table.rows());
                 const std::size_t classes = catalogue.properties()[column.property].classes.size();

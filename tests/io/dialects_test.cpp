@@ -7,8 +7,10 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
+#include "interp/live_model.hpp"
 #include "io/model_store.hpp"
 #include "site_case.hpp"
+#include "stored_models.hpp"
 
 using namespace terratet;
 using namespace terratet::testing;
@@ -26,6 +28,10 @@ struct Dialect {
     bool qualifier = false;  ///< bounds in a column of their own
     bool down = false;       ///< loose samples by depth below zero
     bool near_ids = false;
+    bool wide = false;       ///< UTF-16
+    std::string above = {};  ///< the header
+    bool units_row = false;
+    bool blank_rows = false;  ///< of empty cells, and a total's at the end
 };
 
 /// Thousands parted and a decimal sign; quoted where the cells' separator is in it.
@@ -70,6 +76,33 @@ std::vector<RandomHole> random_site(Random& random) {
     return holes;
 }
 
+/// As a spreadsheet writes it.
+std::string as_file(const std::string& table, const Dialect& d, bool units) {
+    std::string text = d.above + table;
+    const std::size_t header = text.find("\r\n", d.above.size()) + 2;
+    const auto columns =
+        static_cast<std::size_t>(std::ranges::count(table.substr(0, table.find('\r')), d.separator[0]));
+    std::string commas;
+    for (std::size_t k = 0; k < columns; ++k) {
+        commas += d.separator;
+    }
+    if (d.blank_rows) {
+        text += commas + "\r\n" + commas + "\r\n";
+        text.insert(header, commas + "\r\n");
+    }
+    if (d.units_row && units) {
+        text.insert(header, row({"", "m", "[m]", "m", "m"}, d));
+    }
+    if (!d.wide) {
+        return text;
+    }
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) {
+        wide += {c, '\0'};
+    }
+    return wide;
+}
+
 Site site_in(const std::vector<RandomHole>& holes, const Dialect& d) {
     std::string collars = row(d.collar, d);
     std::vector<std::string> header = d.log;
@@ -103,7 +136,7 @@ Site site_in(const std::vector<RandomHole>& holes, const Dialect& d) {
     }
     Case site;
     site.inputs.source_crs = "EPSG:2056";
-    site.collars(collars).log(log).samples(samples);
+    site.collars(as_file(collars, d, true)).log(as_file(log, d, false)).samples(as_file(samples, d, false));
     return read(site.inputs).site;
 }
 
@@ -129,6 +162,27 @@ const std::vector<Dialect> dialects{
     {"depth below zero", ",", "", ".", usual_collar, usual_log, false, false, true},
     {"near ids", ",", "", ".", usual_collar, usual_log, false, false, false, true},
     {"all at once", ";", ".", ",", german_collar, {"Bohrung", "Top", "Bottom", "AU", "CU"}, true, true, true, true},
+    {"Unicode text", "\t", "", ",", usual_collar, usual_log, false, false, false, false, true},
+    {"said separator", ";", "", ",", usual_collar, usual_log, false, false, false, false, false, "sep=;\r\n"},
+    {"notes above", ",", "", ".", usual_collar, usual_log, false, false, false, false, false,
+     "Project Alpha\r\nprinted 2024-01-01\r\n\r\n"},
+    {"groups above", ";", "", ".", usual_collar, usual_log, false, false, false, false, false, "Hole;Place;;;\r\n"},
+    {"units below", ",", "", ".", usual_collar, usual_log, false, false, false, false, false, "", true},
+    {"blank rows", ",", "", ".", usual_collar, usual_log, false, false, false, false, false, "", false, true},
+    {"a sheet as it is",
+     "\t",
+     "",
+     ",",
+     {"Bohrung", "Rechtswert", "Hochwert", "Hoehe [m]", "Endteufe"},
+     german_log,
+     false,
+     false,
+     false,
+     false,
+     true,
+     "Bericht\r\n\t\t\r\n",
+     true,
+     true},
 };
 
 }  // namespace
@@ -144,6 +198,29 @@ TEST_CASE("D3: fifty random sites read back to the same from every dialect") {
         for (const Dialect& dialect : dialects) {
             INFO(dialect.name << ", site " << n);
             CHECK(same(expected, site_in(holes, dialect)));
+        }
+    }
+}
+
+TEST_CASE("D3: the model file of a site is the same to the byte from every dialect") {
+    const Environment epoch("SOURCE_DATE_EPOCH", "1000000000");
+    const testing::TemporaryFolder folder;
+    const Dialect plain{"plain", ",", "", ".", usual_collar, usual_log};
+    const auto stored = [&](Site site) {
+        BuildOptions options;
+        options.criteria.l_min = 4000;
+        options.estimator = "nearest";
+        save_model(folder / "model.gpkg", LiveModel(std::move(site), options).model(), {1, "", "build", "{}"}, true);
+        return content(folder / "model.gpkg");
+    };
+    Random random(3067);
+    for (std::size_t n = 0; n < 50; ++n) {
+        const std::vector<RandomHole> holes = random_site(random);
+        const std::string expected = stored(site_in(holes, plain));
+        REQUIRE(expected.size() > 10000);
+        for (std::size_t k = n % 6; k < dialects.size(); k += 6) {  // each dialect with every sixth site
+            INFO(dialects[k].name << ", site " << n);
+            CHECK(stored(site_in(holes, dialects[k])) == expected);
         }
     }
 }

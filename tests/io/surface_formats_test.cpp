@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <numbers>
 
@@ -120,6 +121,97 @@ TEST_CASE("Irap grids stand turned about their corner and have holes") {
     check_box(grid("90.0").box(), {400, 600, -130}, {500, 900, -100});
 }
 
+namespace {
+
+template <typename Number>
+void append(std::string& bytes, Number number, bool big) {
+    char raw[sizeof number];
+    std::memcpy(raw, &number, sizeof number);
+    if (big) {
+        std::reverse(raw, raw + sizeof number);
+    }
+    bytes.append(raw, sizeof number);
+}
+
+/// Records of Fortran: length, content, length.
+std::string record(const std::string& content) {
+    std::string bytes;
+    append(bytes, static_cast<std::int32_t>(content.size()), true);
+    const std::string length = bytes;
+    return length + content + length;
+}
+
+}  // namespace
+
+TEST_CASE("a binary Irap grid is the same as one in text") {
+    const TemporaryFolder folder;
+    for (const float angle : {0.0F, 90.0F}) {
+        std::string first, second, third(28, '\0');
+        append(first, std::int32_t{-996}, true);
+        append(first, std::int32_t{3}, true);
+        for (const float number : {500.0F, 800.0F, 600.0F, 700.0F, 100.0F, 50.0F}) {
+            append(first, number, true);
+        }
+        append(second, std::int32_t{4}, true);
+        for (const float number : {angle, 500.0F, 600.0F}) {
+            append(second, number, true);
+        }
+        std::string rows[2];
+        int node = 0;
+        for (const float z :
+             {-100.F, -110.F, -120.F, -130.F, -100.F, -110.F, -120.F, 1e30F, -100.F, -110.F, -120.F, -130.F}) {
+            append(rows[node++ < 5 ? 0 : 1], z, true);
+        }
+        const std::string bytes = record(first) + record(second) + record(third) + record(rows[0]) + record(rows[1]);
+        const Found found = found_in(written(folder / "top.gri", bytes));
+        CHECK(found.triangles() == Counts{{"top", 12 - 3}});
+        const Found text = found_in(written(
+            folder / "text.irap", fmt::format("-996 3 100.0 50.0\n500 800 600 700\n4 {} 500 600\n0 0 0 0 0 0 0\n-100 "
+                                              "-110 -120 -130 -100 -110 -120 9999900 -100 -110 -120 -130\n",
+                                              angle)));
+        CHECK(found.raw.surfaces.front().vertices == text.raw.surfaces.front().vertices);
+        CHECK(found.raw.surfaces.front().triangles == text.raw.surfaces.front().triangles);
+        CHECK_THAT(refusal(written(folder / "cut.gri", bytes.substr(0, bytes.size() - 20))), Contains("cut off"));
+    }
+}
+
+TEST_CASE("a binary DXF is the same as one in text, with codes of one byte or two") {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<int, std::string>> pairs{
+        {0, "SECTION"},  {2, "HEADER"}, {9, "$ACADVER"}, {1, "AC1015"}, {70, "7"},     {0, "ENDSEC"}, {0, "SECTION"},
+        {2, "ENTITIES"}, {0, "3DFACE"}, {8, "A"},        {62, "3"},     {10, "0.125"}, {20, "0"},     {30, "-3.7"},
+        {11, "100"},     {21, "0"},     {31, "0"},       {12, "0"},     {22, "1e2"},   {32, "5"},     {13, "0"},
+        {23, "1e2"},     {33, "5"},     {1070, "4"},     {1000, "x"},   {0, "ENDSEC"}, {0, "EOF"}};
+    std::string text;
+    for (const auto& [code, value] : pairs) {
+        text += fmt::format("{}\n{}\n", code, value);
+    }
+    const Found expected = found_in(written(folder / "f.dxf", text));
+    REQUIRE(expected.triangles() == Counts{{"A", 1}});
+    for (const bool wide : {true, false}) {
+        std::string bytes("AutoCAD Binary DXF\r\n\x1A\0", 22);
+        for (const auto& [code, value] : pairs) {
+            if (wide || code > 254) {
+                bytes += wide ? "" : "\xFF";
+                append(bytes, static_cast<std::int16_t>(code), false);
+            } else {
+                append(bytes, static_cast<std::uint8_t>(code), false);
+            }
+            if (code >= 10 && code < 60) {
+                append(bytes, std::stod(value), false);
+            } else if ((code >= 60 && code < 80) || code == 1070) {
+                append(bytes, static_cast<std::int16_t>(std::stoi(value)), false);
+            } else {
+                bytes += value + '\0';
+            }
+        }
+        const Found found = found_in(written(folder / "f.dxf", bytes));
+        CHECK(found.triangles() == expected.triangles());
+        CHECK(found.raw.surfaces.front().vertices == expected.raw.surfaces.front().vertices);
+        CHECK_THAT(refusal(written(folder / "cut.dxf", bytes.substr(0, 60))), Contains("cut.dxf"));
+    }
+}
+
 TEST_CASE("ZMap grids are read by GDAL") {
     const TemporaryFolder folder;
     std::string text = "! a comment\n@top, GRID, 3\n20, 1e30, , 4, 1\n2, 3, 500, 700, 600, 700\n0.0, 0.0, 0.0\n@\n";
@@ -176,6 +268,39 @@ TEST_CASE("what a trace lacks is said: its dip, direction or depth") {
     CHECK_THAT(message(R"(,"dip":60,"dip_dir":"E")"), Contains("`fault_depth`"));
     CHECK_THAT(message(R"(,"dip":60,"dip_dir":5,"D90":1)"), Contains("along the trace"));
     CHECK_THAT(message(R"(,"dip":null,"dip_dir":"E","D90":1)"), Contains("no dip"));
+}
+
+TEST_CASE("traces go down to a detachment, each point to where it meets it") {
+    const TemporaryFolder folder;
+    // A plane that falls from -1000 at x = 0 to -3000 at x = 4000.
+    const std::string plane =
+        written(folder / "detachment.ts",
+                "GOCAD TSurf 1\nTFACE\nVRTX 1 0 -9000 -1000\nVRTX 2 4000 -9000 -3000\nVRTX 3 4000 9000 "
+                "-3000\nVRTX 4 0 9000 -1000\nTRGL 1 2 3\nTRGL 1 3 4\nEND\n");
+    const auto traces = [&](double x) {
+        return written(folder / "t.geojson",
+                       fmt::format(R"({{"type":"FeatureCollection","features":[{{"type":"Feature","properties":)"
+                                   R"({{"name":"F","dip":45,"dip_dir":"E"}},"geometry":{{"type":"LineString",)"
+                                   R"("coordinates":[[{0},0,0],[{0},1000,0],[{0},2000,0]]}}}}]}})",
+                                   x));
+    };
+    Source source{traces(500)};
+    source.srs = "EPSG:3067";
+    const auto found = [&] {
+        Diagnostics diagnostics;
+        return read_surfaces(source, SurfaceKind::fault, {}, diagnostics, {ZPositive::automatic, plane});
+    };
+    const Surface surface = found().surfaces.at(0);
+    // From (500, 0): z = -(x - 500) meets z = -1000 - x / 2 at x = 3000.
+    double lowest = 0;
+    for (const Vec3& p : surface.vertices) {
+        CHECK(p.z >= -1000 - p.x / 2 - 1e-6);
+        CHECK(std::abs(p.z + (p.x - 500)) < 1e-6);
+        lowest = std::min(lowest, p.z);
+    }
+    CHECK(std::abs(lowest + 2500) < 1e-6);
+    source.path = traces(3500);  // beyond the plane's end
+    CHECK_THROWS_WITH(found(), Contains("does not meet the detachment"));
 }
 
 TEST_CASE("sticks are joined one behind the other, from lines in space or from a table") {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "io/base/parse_number.hpp"
 #include "io/read/tables/csv_file.hpp"
 #include "io/read/tables/read_table.hpp"
 #include "support.hpp"
@@ -194,9 +195,9 @@ TEST_CASE("what is no table is refused with one clear message") {
     const testing::TemporaryFolder folder;
     std::string binary = "PK\x03\x04";
     binary.resize(3000, '\0');
-    const auto message = [](const std::string& path) -> std::string {
+    const auto message = [](const std::string& path, const std::string& where = "") -> std::string {
         try {
-            read_table({path});
+            read_table({.path = path, .where = where});
         } catch (const InputError& error) {
             return error.what();
         }
@@ -210,7 +211,9 @@ TEST_CASE("what is no table is refused with one clear message") {
     CHECK_THAT(message(written(folder / "binary.dat", binary)), Contains("no table that can be read"));
     CHECK_THAT(message(written(folder / "broken.xlsx", binary)), Contains("no table that can be read"));
     CHECK_THAT(message(written(folder / "broken.gpkg", binary)), Contains("no table that can be read"));
-    CHECK_THAT(message(written(folder / "utf16.csv", std::string("\xFF\xFEi\0d\0\n\0", 8))), Contains("UTF-16"));
+    const std::string wide = written(folder / "utf16.csv", std::string("\xFF\xFEi\0d\0\n\0", 8));
+    CHECK_THAT(message(wide), Contains("no row below its header"));
+    CHECK_THAT(message(wide, "id > 1"), Contains("UTF-16"));
     CHECK_THAT(message(written(folder / "page.html", "<html><body>no</body></html>")), Contains("no table"));
     CHECK_THAT(message(written(folder / "a.dxf", "0\nSECTION\n")), !Contains("hang"));
     CHECK_THAT(message("PG:host=127.0.0.1 port=1 dbname=none password=secret connect_timeout=1"),
@@ -376,4 +379,90 @@ TEST_CASE("numbers are read as people group them; what may be either is left") {
     CHECK(column("id;x\nA;0.5\nB;0,8\n") == Text{"0.5", "0,8"});
     CHECK(column("id;x\nA;12 34\nB;2021-03-01\n") == Text{"12 34", "2021-03-01"});
     CHECK(column("id;x\nA;1,5e3\nB;,5\n") == Text{"1.5e3", ".5"});
+}
+
+TEST_CASE("titles above a header, a separator that is said, units below and blank rows are no records") {
+    const testing::TemporaryFolder folder;
+    const Rows expected{{"A", "1", "2", "3"}, {"B", "4", "5", "6"}};
+    const auto read = [&](const std::string& text) { return read_table({written(folder / "t.csv", text)}); };
+    const std::string rows = "A,1,2,3\nB,4,5,6\n";
+    for (const std::string above :
+         {"", "sep=,\n", "Project,,,\n,,,\n", "Project\n\nprinted 2024\n", "Hole,Place,,\n", "# a comment\nTitle\n"}) {
+        INFO(above);
+        const Table table = read(above + "BHID,X,Y,Z\n" + rows);
+        CHECK(table.columns == std::vector<std::string>{"BHID", "X", "Y", "Z"});
+        CHECK(rows_of(table) == expected);
+        CHECK(table.lines.back() == 3 + std::count(above.begin(), above.end(), '\n'));
+    }
+    for (const std::string units : {",m,m,m\n", "-,[m],[m],m AHD\n", ",ft,ft,ft\n"}) {
+        INFO(units);
+        const Table table = read("BHID,X,Y,Z\n" + units + ",,,\n" + rows + ",,,\n\x1A");
+        CHECK(rows_of(table) == expected);
+        REQUIRE(table.stated.units.size() == 4);
+        CHECK(table.stated.units[1] == (units.starts_with(",ft") ? "ft" : "m"));
+        CHECK_THAT(table.notes.at(0), Contains("line 2 holds the units"));
+    }
+    // Words that are no units are values, and a header that nobody knows stays one.
+    CHECK(read("BHID,X,Y,Z\n,north,south,up\n" + rows).rows() == 3);
+    CHECK(read("a,b\np,q\n1,2\n").columns == std::vector<std::string>{"a", "b"});
+    // A table without header is one still.
+    CHECK(read("1,2,3\n4,5,6\n").rows() == 2);
+}
+
+TEST_CASE("a sheet's header is found below its notes, and blank rows of it are none") {
+    const testing::TemporaryFolder folder;
+    GDALAllRegister();
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("XLSX");
+    REQUIRE(driver != nullptr);
+    const std::string path = folder / "sheet.xlsx";
+    GDALDataset* dataset = driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
+    OGRLayer* layer = dataset->CreateLayer("collar", nullptr, wkbNone, nullptr);
+    const Rows rows{{"printed", "", "", ""}, {"BHID", "X", "Y", "Z"}, {"", "m", "m", "m"},
+                    {"A", "1", "2.5", "3"},  {"", "", "", ""},        {"B", "4", "5", "6"}};
+    for (const char* name : {"Project Alpha", "b", "c", "d"}) {
+        OGRFieldDefn field(name, OFTString);
+        layer->CreateField(&field);
+    }
+    for (const auto& row : rows) {
+        OGRFeature feature(layer->GetLayerDefn());
+        for (int column = 0; column < 4; ++column) {
+            if (!row[static_cast<std::size_t>(column)].empty()) {
+                feature.SetField(column, row[static_cast<std::size_t>(column)].c_str());
+            }
+        }
+        REQUIRE(layer->CreateFeature(&feature) == OGRERR_NONE);
+    }
+    GDALClose(dataset);
+    const Table table = read_table({path});
+    CHECK(table.columns == std::vector<std::string>{"BHID", "X", "Y", "Z"});
+    CHECK(rows_of(table) == Rows{{"A", "1", "2.5", "3"}, {"B", "4", "5", "6"}});
+}
+
+TEST_CASE("E and N are a place together, and nothing alone") {
+    CHECK(find_column(table_with({"Hole", "N", "E", "RL"}), Meaning::x, {}) == 2);
+    CHECK(find_column(table_with({"Hole", "N", "E", "RL"}), Meaning::y, {}) == 1);
+    CHECK(find_column(table_with({"Hole", "From", "To", "N"}), Meaning::y, {}) == -1);
+    CHECK(find_column(table_with({"Hole", "E", "N", "Easting", "Northing"}), Meaning::x, {}) == 3);
+}
+
+TEST_CASE("short decimals are read as exactly as long ones") {
+    testing::Random random(8);
+    for (int k = 0; k < 100000; ++k) {
+        const int decimals = static_cast<int>(random.below(10));
+        char text[40];
+        std::snprintf(text, sizeof text, "%.*f", decimals,
+                      random(-1, 1) * std::pow(10.0, static_cast<double>(random.below(9))));
+        REQUIRE(parse_number(text) == std::strtod(text, nullptr));
+    }
+    CHECK(parse_number("9007199254740993") == 9007199254740992.0);
+    CHECK(std::signbit(parse_number("-0").value()));
+    for (const char* text : {"", "-", ".", "1.", ".5", "1.2.3", "1e5", "+7", "- 1", "0x10", "12345678901234567890"}) {
+        char* end = nullptr;
+        const double value = std::strtod(text, &end);
+        const std::string whole = text;
+        const bool number = !whole.empty() && *end == '\0' && whole != "0x10";
+        INFO(text);
+        CHECK(parse_number(text).has_value() == number);
+        CHECK((!number || parse_number(text) == value));
+    }
 }

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "interp/plan/composite.hpp"
 #include "io/base/crs.hpp"
 #include "io/read/tables/null_codes.hpp"
@@ -61,13 +63,16 @@ double composite_length(const std::string& text, double metres_per_unit) {
     return length;
 }
 
-/// A length above 0, in whatever unit.
+/// A length above 0, in whatever unit, or the file of a surface.
 void fault_depth(const std::string& text) {
+    if (text.starts_with("/vsi") || std::filesystem::exists(text)) {
+        return;
+    }
     double length = 0;
     try {
         length = parse_length(text, 1.0);
     } catch (const UsageError& error) {
-        throw UsageError(fmt::format("--fault-depth: {}", error.what()));
+        throw UsageError(fmt::format("--fault-depth: {}, nor is it the file of a surface", error.what()));
     }
     if (!(length > 0)) {
         throw UsageError(fmt::format("--fault-depth: '{}' is not above 0; give a depth, as in 12km", text));
@@ -155,7 +160,10 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               "tops and bottoms of logs: auto (default: depths, but heights where they fall from the collars'), depth, "
               "elevation",
               &a.intervals},
-             {{"fault-depth"}, "LENGTH", "down to which, below zero, the faults of traces reach", &a.fault_depth},
+             {{"fault-depth"},
+              "LENGTH|FILE",
+              "depth below zero, or surface, to which the faults of traces reach",
+              &a.fault_depth},
              {{"z-scale"},
               "K",
               "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged; by default 1, "

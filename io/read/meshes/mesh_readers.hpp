@@ -23,4 +23,7 @@ void read_irap(std::string_view bytes, MeshBuilder& mesh);
 /// A binary STL says how many triangles it has, and is exactly that long.
 bool is_binary_stl(std::string_view bytes, std::size_t file_size);
 
+/// An Irap classic grid in binary begins with two records of known lengths, the first with -996.
+bool is_binary_irap(std::string_view bytes);
+
 }  // namespace terratet

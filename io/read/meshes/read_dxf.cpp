@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pairs of lines: a group code and its value. Entities begin with code 0; 8 is their layer; 10 to 13, 20 to 23, 30 to
-// 33 are corners. Of POLYLINEs, polyface meshes (70 has bit 64) have VERTEX entities that are places (70: 64) and faces
-// (71 to 74: their corners from 1, negative where an edge is not drawn), polygon meshes (bit 16) have M times N places.
+// Pairs of a group code and its value, in text or binary. Entities begin with code 0; 8 is their layer; 10 to 13, 20 to
+// 23, 30 to 33 are corners. Of POLYLINEs, polyface meshes (70 has bit 64) have VERTEX entities that are places (70: 64)
+// and faces (71 to 74: their corners from 1, negative where an edge is not drawn), polygon meshes (bit 16) have M times
+// N places.
 #include <array>
 #include <map>
 
+#include "io/read/meshes/dxf_pairs.hpp"
 #include "io/read/meshes/mesh_readers.hpp"
-#include "io/read/meshes/text_cursor.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -166,21 +167,17 @@ void take(Entity& entity, int code, std::string_view value) {
 }  // namespace
 
 void read_dxf(std::string_view bytes, MeshBuilder& mesh) {
-    if (bytes.starts_with("AutoCAD Binary DXF")) {
-        throw InputError("a binary DXF is not read; save it as ASCII DXF");
-    }
-    TextCursor text(bytes);
+    DxfPairs pairs(bytes);
     Reader reader(mesh);
     Entity entity;
     bool section_begins = false;
     bool in_entities = false;
-    std::string_view code_text;
+    std::optional<int> code;
     std::string_view value;
-    while (text.next(code_text) && text.next(value)) {
-        const auto code = whole_number<int>(code_text);
+    while (pairs.next(code, value)) {
         if (!code) {
-            mesh.reject(text.line() - 1,
-                        "a group code is no number: \"" + excerpt(code_text) + "\"; what follows is not read");
+            mesh.reject(pairs.line() - 1, "a group code is no number, or unknown: \"" + excerpt(pairs.code_text()) +
+                                              "\"; what follows is not read");
             break;
         }
         if (*code == 0) {
@@ -189,7 +186,7 @@ void read_dxf(std::string_view bytes, MeshBuilder& mesh) {
             }
             entity = Entity{};
             entity.type = std::string(value);
-            entity.line = text.line();
+            entity.line = pairs.line();
             section_begins = value == "SECTION";
             in_entities = in_entities && value != "ENDSEC";
         } else if (*code == 2 && section_begins) {

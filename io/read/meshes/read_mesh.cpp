@@ -135,7 +135,7 @@ std::optional<MeshFormat> mesh_format(const std::string& path) {
     if (lower_case(lines[0].substr(0, 5)) == "solid" && lower_case(lines[1].substr(0, 5)) == "facet") {
         return MeshFormat::stl;
     }
-    if (is_irap(lines)) {
+    if (is_irap(lines) || is_binary_irap(bytes)) {
         return MeshFormat::irap;
     }
     if (is_dxf(path, bytes)) {

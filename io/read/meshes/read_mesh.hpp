@@ -12,8 +12,8 @@
 /// | STL | solid | ascii, binary; corners at the same position are one vertex |
 /// | OFF | one | with or without normals, colours, counts on the first line |
 /// | VTP (VTK PolyData) | one | ascii, base64, raw appended; zlib or none; either end; polygons and strips |
-/// | DXF | layer | 3DFACE, polyface and mesh POLYLINE, in ENTITIES; ascii |
-/// | Irap classic grid | one | ascii; nodes of 9999900 are none |
+/// | DXF | layer | 3DFACE, polyface and mesh POLYLINE, in ENTITIES; ascii, binary |
+/// | Irap classic grid | one | ascii, binary; nodes of 9999900 and more are none |
 
 #include <optional>
 #include <string>

@@ -297,28 +297,6 @@ std::vector<Borehole> boreholes_of(const Holes& holes) {
     return boreholes;
 }
 
-Samples samples_of(const std::vector<SampleRecord>& records, const std::vector<Borehole>& boreholes,
-                   std::size_t properties) {
-    Samples samples;
-    samples.values.resize(properties);
-    for (const SampleRecord& record : records) {
-        const auto owner = std::ranges::lower_bound(boreholes, record.hole, {}, &Borehole::id);
-        samples.positions.push_back(record.position);
-        samples.borehole.push_back(record.hole.empty() ? -1 : static_cast<std::int32_t>(owner - boreholes.begin()));
-        samples.depth.push_back(record.depth);
-        samples.length.push_back(record.length);
-        for (std::size_t p = 0; p < properties; ++p) {
-            samples.values[p].push_back(p < record.values.size() ? record.values[p] : missing);
-        }
-    }
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        for (std::size_t p = 0; p < records[i].censored.size(); ++p) {
-            samples.set_censoring(p, i, records[i].censored[p]);
-        }
-    }
-    return samples;
-}
-
 /// Calls `visit` with every position of the site.
 template <typename Visit>
 void for_each_position(Site& site, const Visit& visit) {
@@ -403,25 +381,26 @@ Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& co
     checkpoint.pass(0.8);
 
     PropertyCatalogue catalogue(inputs.properties, inputs.nulls);
-    std::vector<SampleRecord> records;
+    Samples samples;
     for (Table& log : read.logs) {
         if (log.stated.meanings.empty()) {
             accept_elevations(log, holes, inputs, diagnostics);
         }
         note_beyond_length(log, holes, target, inputs, diagnostics);
-        read_log(log, holes, target, inputs, catalogue, records, diagnostics);
+        read_log(log, holes, target, inputs, catalogue, samples, diagnostics);
     }
     if (!read.logs.empty() && catalogue.properties().empty() && inputs.properties.empty()) {
         throw_no_property(read.logs);
     }
-    for (const PlacedTable& placed : read.samples) {
-        read_loose_samples(placed, inputs, catalogue, records, diagnostics);
+    for (PlacedTable& placed : read.samples) {
+        read_loose_samples(placed, inputs, catalogue, samples, diagnostics);
     }
     checkpoint.pass(0.9);
 
     Site site;
     site.boreholes = boreholes_of(holes);
-    site.samples = samples_of(records, site.boreholes, catalogue.properties().size());
+    site.samples = std::move(samples);
+    site.samples.values.resize(catalogue.properties().size(), std::vector<double>(site.samples.size(), missing));
     site.properties = catalogue.finish(site.samples);
     for (RawSurfaces& raw : read.surfaces) {
         std::ranges::move(raw.surfaces, std::back_inserter(site.surfaces));

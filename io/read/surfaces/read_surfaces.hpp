@@ -79,9 +79,9 @@ RawSurfaces read_fault_points(const Source& source, SurfaceKind kind, const Colu
                               const SurfaceOptions& options, Diagnostics& diagnostics);
 
 /// Of lines: one surface for all traces of a name, from the line down along its dip to the lower depth of its record or
-/// of the options; or, without a column of dips, for lines in space one behind the other (sticks).
-/// docs/input-surfaces.md. Traces without dip, direction or depth are rejected by record. Throws InputError that says
-/// "dip" when no column does.
+/// of the options, or to the detachment whose file these name; or, without a column of dips, for lines in space one
+/// behind the other (sticks). docs/input-surfaces.md. Traces without dip, direction or depth are rejected by record.
+/// Throws InputError that says "dip" when no column does.
 RawSurfaces read_traces(const Source& source, SurfaceKind kind, const ColumnNames& columns,
                         const SurfaceOptions& options, Diagnostics& diagnostics);
 

@@ -11,9 +11,11 @@
 #include <map>
 #include <numbers>
 
+#include "io/base/file_bytes.hpp"
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/rejections.hpp"
 #include "io/base/text_lines.hpp"
+#include "io/read/surfaces/detachment.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
 #include "io/read/surfaces/sticks.hpp"
 #include "io/read/surfaces/trace_words.hpp"
@@ -236,25 +238,33 @@ Attitude attitude_of(const Trace& trace, double strike, std::string& problem) {
     return result;
 }
 
-/// Appends the sheet from a line down to `bottom`, in rows about as far apart as its points.
-void extrude(const Line& line, const Attitude& attitude, double bottom, const Scales& scales, Surface& surface) {
+/// Where the way down the dip goes from a place, a metre down.
+Vec3 down_dip(const Attitude& attitude, const Scales& scales) {
+    const double out = attitude.dip >= 90 ? 0 : 1 / std::tan(attitude.dip * radians);
+    return {out * std::sin(attitude.direction * radians) / scales.x,
+            out * std::cos(attitude.direction * radians) / scales.y, -1 / scales.z};
+}
+
+/// Appends the sheet from a line down to a height for each of its points, in rows about as far apart as those.
+void extrude(const Line& line, const Attitude& attitude, const std::vector<double>& bottoms, const Scales& scales,
+             Surface& surface) {
     double length = 0;
     for (std::size_t i = 1; i < line.size(); ++i) {
         length += std::hypot((line[i].x - line[i - 1].x) * scales.x, (line[i].y - line[i - 1].y) * scales.y);
     }
-    const double drop = (line.front().z - bottom) * scales.z;
-    const double down_dip = drop / std::sin(attitude.dip * radians);
+    const double drop = (line.front().z - bottoms.front()) * scales.z;
+    const double down = drop / std::sin(attitude.dip * radians);
     const double spacing = length / static_cast<double>(line.size() - 1);
-    const int rows = static_cast<int>(std::clamp(std::round(down_dip / std::max(spacing, 1e-9)), 1.0, 50.0));
-    const double out = attitude.dip >= 90 ? 0 : 1 / std::tan(attitude.dip * radians);
+    const int rows = static_cast<int>(std::clamp(std::round(down / std::max(spacing, 1e-9)), 1.0, 50.0));
+    const Vec3 way = down_dip(attitude, scales);
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
     const auto wide = static_cast<std::uint32_t>(line.size());
     for (int row = 0; row <= rows; ++row) {
-        for (const Vec3& p : line) {
-            const double down = (p.z - bottom) * row / rows;
-            const double away = down * scales.z * out;
-            surface.vertices.push_back({p.x + away * std::sin(attitude.direction * radians) / scales.x,
-                                        p.y + away * std::cos(attitude.direction * radians) / scales.y, p.z - down});
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const Vec3& p = line[i];
+            const double here = (p.z - bottoms[i]) * row / rows;
+            const double metres = here * scales.z;
+            surface.vertices.push_back({p.x + metres * way.x, p.y + metres * way.y, p.z - here});
         }
     }
     for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row) {
@@ -275,29 +285,81 @@ double lower_depth_m(const Trace& trace, const TraceColumns& columns, double gen
     return *depth * (columns.metres_per_depth > 0 ? columns.metres_per_depth : *depth <= 100 ? 1000 : 1);
 }
 
-void add_trace(const Trace& trace, const TraceColumns& columns, const Crs& crs, double general_m,
+/// Where sheets end below, where their records do not say it.
+struct Lower {
+    double general_m = missing;  ///< below zero
+    Detachment detachment{};
+    std::string file{};  ///< of the detachment
+};
+
+/// The heights to which the points of a line go down; empty, with the reason in `problem`, when one does not.
+std::vector<double> bottoms_of(const Line& line, const Attitude& attitude, double depth, const Lower& lower,
+                               const Scales& scales, std::string& problem) {
+    std::vector<double> bottoms(line.size(), -depth / scales.z);
+    const Vec3 way = down_dip(attitude, scales);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (!lower.detachment.empty()) {
+            bottoms[i] = lower.detachment.met_from(line[i], way);
+        }
+        if (!(bottoms[i] < line[i].z)) {
+            problem = lower.detachment.empty()
+                          ? fmt::format("the trace lies at or below its lower depth, {:.6g} m", depth)
+                          : fmt::format("down its dip the trace does not meet the detachment {}", lower.file);
+            return {};
+        }
+    }
+    return bottoms;
+}
+
+void add_trace(const Trace& trace, const TraceColumns& columns, const Crs& crs, const Lower& lower,
                std::map<std::string, Surface>& surfaces, Rejections& rejections) {
     const Line& longest = *std::ranges::max_element(
         trace.lines, {}, [](const Line& line) { return distance(line.front(), line.back()); });
     const Scales scales = scales_at(longest.front(), crs);
     std::string problem;
     const Attitude attitude = attitude_of(trace, strike_of(longest, scales), problem);
-    const double depth = lower_depth_m(trace, columns, general_m);
-    if (problem.empty() && std::isnan(depth)) {
+    const double depth = lower_depth_m(trace, columns, lower.general_m);
+    if (problem.empty() && std::isnan(depth) && lower.detachment.empty()) {
         problem = "no lower depth; `fault_depth` gives one to all";
     }
-    const double bottom = -depth / scales.z;
-    for (const Line& line : trace.lines) {
-        if (problem.empty() && std::ranges::any_of(line, [&](const Vec3& p) { return p.z <= bottom; })) {
-            problem = fmt::format("the trace lies at or below its lower depth, {:.6g} m", depth);
-        }
+    std::vector<std::vector<double>> bottoms;
+    for (std::size_t i = 0; i < trace.lines.size() && problem.empty(); ++i) {
+        bottoms.push_back(bottoms_of(trace.lines[i], attitude, depth, lower, scales, problem));
     }
     if (!problem.empty()) {
         return rejections.add(trace.record, [&] { return fmt::format("\"{}\": {}", trace.name, problem); });
     }
-    for (const Line& line : trace.lines) {
-        extrude(line, attitude, bottom, scales, surfaces[trace.name]);
+    for (std::size_t i = 0; i < trace.lines.size(); ++i) {
+        extrude(trace.lines[i], attitude, bottoms[i], scales, surfaces[trace.name]);
     }
+}
+
+/// A depth, or the file of a surface at which the faults end.
+Lower lower_of(const Crs& crs, const SurfaceOptions& options, const ColumnNames& names, Diagnostics& diagnostics) {
+    Lower lower;
+    const Source source{.path = options.fault_depth};
+    if (options.fault_depth.empty()) {
+        return lower;
+    }
+    if (file_bytes(source.path, 0, 1).empty()) {
+        lower.general_m = parse_length(options.fault_depth, crs.metres_per_height) * crs.metres_per_height;
+        return lower;
+    }
+    RawSurfaces found = read_surfaces(source, SurfaceKind::horizon, names, diagnostics, {options.z_positive, ""});
+    for (Surface& surface : found.surfaces) {
+        if (!found.crs.empty() && !crs.empty()) {
+            CrsTransform(found.crs, crs).apply(surface.vertices);
+        }
+        std::erase_if(surface.triangles, [&](const auto& triangle) {
+            return std::ranges::any_of(triangle, [&](auto corner) { return !is_finite(surface.vertices[corner]); });
+        });
+    }
+    lower.detachment = Detachment(found.surfaces);
+    lower.file = source.path;
+    if (lower.detachment.empty()) {
+        throw InputError(source.path + ": has no triangle at which faults could end");
+    }
+    return lower;
 }
 
 }  // namespace
@@ -327,12 +389,10 @@ RawSurfaces read_traces(const Source& source, SurfaceKind kind, const ColumnName
                         source.describe(), fmt::join(header.columns, ", ")));
     } else {
         const Crs crs = source.srs.empty() ? result.crs : parse_crs(source.srs);
-        const double general_m = options.fault_depth.empty()
-                                     ? missing
-                                     : parse_length(options.fault_depth, crs.metres_per_height) * crs.metres_per_height;
+        const Lower lower = lower_of(crs, options, names, diagnostics);
         std::map<std::string, Surface> surfaces;
         for (const Trace& trace : traces) {
-            add_trace(trace, columns, crs, general_m, surfaces, rejections);
+            add_trace(trace, columns, crs, lower, surfaces, rejections);
         }
         for (auto& [name, surface] : surfaces) {
             surface.name = name;

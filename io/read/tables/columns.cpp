@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/read/tables/columns.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
 
 #include "io/base/lower_case.hpp"
-#include "io/read/tables/read_table.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -88,6 +89,12 @@ int column_of_alias(const Table& table, Meaning meaning) {
             return static_cast<int>(found - headers.begin());
         }
     }
+    // E and N by themselves are elements and blow counts; together they are a place.
+    const auto east = std::ranges::find(headers, "e");
+    const auto north = std::ranges::find(headers, "n");
+    if ((meaning == Meaning::x || meaning == Meaning::y) && east != headers.end() && north != headers.end()) {
+        return static_cast<int>((meaning == Meaning::x ? east : north) - headers.begin());
+    }
     return -1;
 }
 
@@ -113,19 +120,20 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "holename",     "holeno",   "holenumber", "drillhole",    "borehole",    "boreholename", "bore",
          "boreno",       "borename", "well",       "wellname",     "uwi",         "api",          "idcode",
          "originalname", "bohrung",  "bohrloch",   "bohrungsname", "sondage",     "forage",       "sondeo",
-         "pozo",         "borrhal",  "boorgat",    "boring",       "id",          "name"},
+         "pozo",         "borrhal",  "boorgat",    "boornummer",   "borrhål",     "boring",       "id",
+         "name"},
         // x
-        {"xcollar",    "collarx",   "x",          "xcoord",     "xcoordinate", "coordx",      "east",
-         "easting",    "eastings",  "eastcollar", "collareast", "utme",        "utmx",        "utmeast",
-         "xutm",       "xutme",     "gridx",      "locationx",  "xloc",        "xlocation",   "locx",
-         "rechtswert", "rechts",    "ostwert",    "ost",        "este",        "xrd",         "lon",
-         "long",       "longitude", "xlong",      "longdd",     "londd",       "longitudedd", "laenge"},
+        {"xcollar",  "collarx",     "x",          "xcoord",      "xcoordinate", "coordx",       "east",   "easting",
+         "eastings", "eastcollar",  "collareast", "utme",        "utmx",        "utmeast",      "xutm",   "xutme",
+         "gridx",    "locationx",   "xloc",       "xlocation",   "locx",        "rechtswert",   "rechts", "ostwert",
+         "ost",      "este",        "xrd",        "lon",         "long",        "longitude",    "xlong",  "longdd",
+         "londd",    "longitudedd", "laenge",     "xcoordinaat", "xkoordinate", "xkoordinaatti"},
         // y
-        {"ycollar",  "collary",   "y",     "ycoord",      "ycoordinate", "coordy", "north",
-         "northing", "northings", "nort",  "northcollar", "collarnorth", "utmn",   "utmy",
-         "utmnorth", "yutm",      "yutmn", "gridy",       "locationy",   "yloc",   "ylocation",
-         "locy",     "hochwert",  "hoch",  "nordwert",    "nord",        "norte",  "yrd",
-         "lat",      "latitude",  "ylat",  "latdd",       "latitudedd",  "breite"},
+        {"ycollar",    "collary", "y",           "ycoord",      "ycoordinate",  "coordy",   "north",    "northing",
+         "northings",  "nort",    "northcollar", "collarnorth", "utmn",         "utmy",     "utmnorth", "yutm",
+         "yutmn",      "gridy",   "locationy",   "yloc",        "ylocation",    "locy",     "hochwert", "hoch",
+         "nordwert",   "nord",    "norte",       "yrd",         "lat",          "latitude", "ylat",     "latdd",
+         "latitudedd", "breite",  "ycoordinaat", "ykoordinate", "ykoordinaatti"},
         // z
         {"zcollar",
          "collarz",
@@ -155,6 +163,8 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "ansatzhoehe",
 
          "gok",
+         "maaiveld",
+         "maaiveldhoogte",
          "cota",
          "altitud",
          "tvdss",
@@ -208,7 +218,8 @@ const std::vector<std::string>& aliases(Meaning meaning) {
          "avgdip", "meandip", "dipangle", "neigung", "inclinacion", "buzamiento"},
         // length
         {"length", "len", "eoh", "eodh", "td", "totaldepth", "maxdepth", "depthmax", "enddepth", "finaldepth",
-         "holelength", "holedepth", "endofhole", "endteufe", "eoddepth", "profondeurtotale"},
+         "holelength", "holedepth", "endofhole", "endteufe", "eoddepth", "profondeurtotale", "einddiepte",
+         "profundidadtotal"},
         // name
         {"name", "fault", "faultname", "featurename", "faultid", "surface", "surfacename", "horizon", "structure",
          "object", "group", "id"},

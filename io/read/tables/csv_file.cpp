@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "io/base/csv_text.hpp"
+#include "io/base/lower_case.hpp"
 #include "io/base/parse_number.hpp"
 #include "io/base/text_lines.hpp"
 #include "io/read/tables/csv_splitter.hpp"
+#include "io/read/tables/header_rows.hpp"
 
 namespace terratet {
 namespace {
@@ -77,26 +80,142 @@ std::vector<std::string> column_names(const Cells& cells, bool header) {
     return names;
 }
 
+std::vector<std::string> texts(const Cells& cells) {
+    std::vector<std::string> names;
+    std::ranges::transform(cells, std::back_inserter(names), [](std::string_view cell) { return to_utf8(cell); });
+    return names;
+}
+
 bool is_header(const Cells& cells, const CsvOptions& options) {
     if (options.header) {
         return *options.header;
     }
-    if (std::ranges::none_of(cells, [](std::string_view cell) { return parse_number(cell).has_value(); })) {
-        return true;
+    return std::ranges::none_of(cells, [](std::string_view cell) { return parse_number(cell).has_value(); }) ||
+           names_columns(texts(cells));
+}
+
+/// The separator that a spreadsheet says in a line of its own; 0: it does not.
+char said_separator(std::string_view head) {
+    const std::string_view line = trimmed(head.substr(0, std::min(head.find_first_of("\r\n"), head.size())));
+    return line.size() == 5 && lower_case(line.substr(0, 4)) == "sep=" ? line[4] : '\0';
+}
+
+bool is_blank_record(const Cells& cells) {
+    constexpr std::string_view end_of_file = "\x1A";  // of DOS
+    return std::ranges::all_of(cells, [](std::string_view cell) { return cell.empty(); }) ||
+           (cells.size() == 1 && cells.front() == end_of_file);
+}
+
+/// Takes records in order and makes tables of them.
+class TableBuilder {
+  public:
+    TableBuilder(std::string path, const CsvOptions& options) : path_(std::move(path)), options_(options) {}
+
+    void add(const Cells& cells, std::int64_t line) {
+        if (is_blank_record(cells) || (columns_.empty() && !begin(cells))) {
+            return;
+        }
+        table_.cells.resize(columns_.size());
+        append_record(table_, cells);
+        table_.lines.push_back(line);
+        const auto beyond = cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), columns_.size()));
+        if (std::any_of(beyond, cells.end(), [](std::string_view cell) { return !cell.empty(); })) {
+            first_longer_ = longer_++ == 0 ? line : first_longer_;
+        }
     }
-    std::vector<std::string> names;
-    std::ranges::transform(cells, std::back_inserter(names), [](std::string_view cell) { return to_utf8(cell); });
-    return options.names_columns && options.names_columns(names);
+
+    void note(std::string text) { table_.notes.push_back(std::move(text)); }
+
+    [[nodiscard]] std::size_t rows() const { return table_.rows(); }
+
+    /// What was added since the last call.
+    Table take() {
+        table_.columns = columns_;
+        table_.cells.resize(columns_.size());
+        return std::exchange(table_, {});
+    }
+
+    /// At the end of the text.
+    void note_longer() {
+        if (longer_ > 0) {
+            note(
+                fmt::format("{}: {} records have more cells than the header has columns, which are ignored; the "
+                            "first is on line {}",
+                            path_, longer_, first_longer_));
+        }
+        longer_ = 0;
+    }
+
+  private:
+    /// Names the columns; is the record one with values?
+    bool begin(const Cells& cells) {
+        if (cells.front().starts_with('#') && !options_.header) {
+            comment_.assign(cells.begin(), cells.end());
+            comment_.front().erase(0, 1);
+            if (trimmed(comment_.front()).empty()) {
+                comment_.erase(comment_.begin());
+            }
+            return false;
+        }
+        const bool header = is_header(cells, options_);
+        const bool commented = !header && comment_.size() == cells.size();
+        columns_ = column_names(commented ? Cells(comment_.begin(), comment_.end()) : cells, header || commented);
+        return !header;
+    }
+
+    std::string path_;
+    CsvOptions options_;
+    Table table_;
+    std::vector<std::string> columns_;
+    std::vector<std::string> comment_;
+    std::size_t longer_ = 0;
+    std::int64_t first_longer_ = 0;
+};
+
+/// A record that is kept.
+struct Record {
+    std::vector<std::string> cells;
+    std::int64_t line;
+};
+
+/// The first records of a text without those above its header, which are left out (noted).
+std::vector<Record> first_records(CsvSplitter& splitter, bool says_separator, const CsvOptions& options,
+                                  const std::string& path, TableBuilder& builder) {
+    std::vector<Record> records;
+    Cells cells;
+    while (records.size() < most_title_rows && splitter.next(cells)) {
+        if (!says_separator || splitter.line() != 1) {
+            records.push_back({{cells.begin(), cells.end()}, splitter.line()});
+        }
+    }
+    std::size_t comments = 0;
+    while (comments < records.size() && records[comments].cells.front().starts_with('#')) {
+        ++comments;
+    }
+    std::vector<std::vector<std::string>> names;
+    for (std::size_t i = comments; i < records.size() && !options.header; ++i) {
+        names.push_back(texts(Cells(records[i].cells.begin(), records[i].cells.end())));
+    }
+    if (const std::size_t titles = header_record(names); titles > 0) {
+        builder.note(fmt::format("{}: the header is found on line {}; what stands above is passed over", path,
+                                 records[comments + titles].line));
+        records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(comments + titles));
+    }
+    return records;
 }
 
 }  // namespace
 
 char separator_of(std::string_view head) {
     const std::vector<std::string_view> lines = first_lines(head);
+    const bool title = !lines.empty() && std::ranges::all_of(std::string_view("\t;|,"), [&](char separator) {
+        return count_cells(lines.front(), separator) == 1;
+    });
+    const std::size_t typical = title && lines.size() > 2 ? lines.size() - 2 : 0;  // the last one may be cut
     std::tuple<std::size_t, std::size_t> best{0, 1};
     char found = 0;
     for (const char separator : {'\t', ';', '|', ','}) {
-        const std::size_t count = lines.empty() ? 1 : count_cells(lines.front(), separator);
+        const std::size_t count = lines.empty() ? 1 : count_cells(lines[typical], separator);
         const auto even = static_cast<std::size_t>(
             std::ranges::count_if(lines, [&](std::string_view line) { return count_cells(line, separator) == count; }));
         if (count > 1 && std::tuple(even, count) > best) {
@@ -111,72 +230,45 @@ char separator_of(std::string_view head) {
 }
 
 struct CsvFile::Impl {
-    std::string path;
-    CsvOptions options;
     CsvSplitter splitter;
-    std::vector<std::string> columns{};
-    std::vector<std::string> comment{};
-    Cells cells{};
-    std::size_t longer = 0;
-    std::int64_t first_longer = 0;
+    TableBuilder builder;
+    std::vector<Record> first{};
+    std::size_t used = 0;  ///< of the first ones
 
-    /// False for what is no record of data: a comment, the header.
-    bool is_record() {
-        if (!columns.empty()) {
-            return true;
-        }
-        if (cells.front().starts_with('#') && !options.header) {
-            comment.assign(cells.begin(), cells.end());
-            comment.front().erase(0, 1);
-            if (trimmed(comment.front()).empty()) {
-                comment.erase(comment.begin());
-            }
-            return false;
-        }
-        const bool header = is_header(cells, options);
-        const bool commented = !header && comment.size() == cells.size();
-        columns = column_names(commented ? Cells(comment.begin(), comment.end()) : cells, header || commented);
-        return !header;
+    Impl(const std::string& path, const CsvOptions& options) : splitter(path), builder(path, options) {
+        const char said = said_separator(splitter.head());
+        splitter.set_separator(options.separator != 0 ? options.separator
+                               : said != 0            ? said
+                                                      : separator_of(splitter.head()));
+        first = first_records(splitter, said != 0, options, path, builder);
     }
 
-    void count_longer() {
-        const auto beyond = cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), columns.size()));
-        if (std::any_of(beyond, cells.end(), [](std::string_view cell) { return !cell.empty(); })) {
-            first_longer = longer++ == 0 ? splitter.line() : first_longer;
+    /// Adds up to `most` records to the table; false: the text is at its end.
+    bool add(std::size_t most) {
+        for (; builder.rows() < most && used < first.size(); ++used) {
+            builder.add(Cells(first[used].cells.begin(), first[used].cells.end()), first[used].line);
         }
+        Cells cells;
+        while (builder.rows() < most) {
+            if (!splitter.next(cells)) {
+                return false;
+            }
+            builder.add(cells, splitter.line());
+        }
+        return true;
     }
 };
 
-CsvFile::CsvFile(const std::string& path, const CsvOptions& options)
-    : impl_(std::make_unique<Impl>(Impl{path, options, CsvSplitter(path)})) {
-    impl_->splitter.set_separator(options.separator != 0 ? options.separator : separator_of(impl_->splitter.head()));
-}
+CsvFile::CsvFile(const std::string& path, const CsvOptions& options) : impl_(std::make_unique<Impl>(path, options)) {}
 
 CsvFile::~CsvFile() = default;
 CsvFile::CsvFile(CsvFile&&) noexcept = default;
 
 Table CsvFile::next(std::size_t most) {
-    Table table;
-    bool more = true;
-    while (table.rows() < most && (more = impl_->splitter.next(impl_->cells))) {
-        if (!impl_->is_record()) {
-            continue;
-        }
-        table.cells.resize(impl_->columns.size());
-        append_record(table, impl_->cells);
-        table.lines.push_back(impl_->splitter.line());
-        impl_->count_longer();
+    if (!impl_->add(most)) {
+        impl_->builder.note_longer();
     }
-    table.columns = impl_->columns;
-    table.cells.resize(table.columns.size());
-    if (!more && impl_->longer > 0) {
-        table.notes.push_back(
-            fmt::format("{}: {} records have more cells than the header has columns, which are ignored; the "
-                        "first is on line {}",
-                        impl_->path, impl_->longer, impl_->first_longer));
-        impl_->longer = 0;
-    }
-    return table;
+    return impl_->builder.take();
 }
 
 Table read_csv_file(const std::string& path, const CsvOptions& options) {

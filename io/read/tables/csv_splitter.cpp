@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "io/base/gdal_scope.hpp"
+#include "io/base/utf16.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -67,12 +68,29 @@ bool CsvSplitter::fill() {
     buffer_.resize(std::max(buffer_.size(), end_ + wanted));
     const GdalScope quiet(path_);
     const std::size_t got = VSIFReadL(buffer_.data() + end_, 1, wanted, static_cast<VSILFILE*>(file_.get()));
-    end_ += got;
+    end_ += decode(got);
     if (quiet.failed()) {
         throw InputError(path_ + ": reading failed after line " + std::to_string(line_) + ": " + quiet.failure());
     }
     at_end_ = got == 0;  // less than wanted says nothing in an archive
     return got > 0;
+}
+
+std::size_t CsvSplitter::decode(std::size_t count) {
+    const std::string_view raw(buffer_.data() + end_, count);
+    if (encoding_ == Encoding::unknown) {
+        encoding_ = raw.starts_with("\xFF\xFE")   ? Encoding::utf16_le
+                    : raw.starts_with("\xFE\xFF") ? Encoding::utf16_be
+                                                  : Encoding::bytes;
+    }
+    if (encoding_ == Encoding::bytes) {
+        return count;
+    }
+    units_.insert(units_.end(), raw.begin(), raw.end());
+    const std::string text = utf16_text(units_, encoding_ == Encoding::utf16_le);
+    buffer_.resize(std::max(buffer_.size(), end_ + text.size()));
+    std::ranges::copy(text, buffer_.begin() + static_cast<std::ptrdiff_t>(end_));
+    return text.size();
 }
 
 /// From behind the opening mark to the separator or line end; `complete` is false when the buffer ends before.

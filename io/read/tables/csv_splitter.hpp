@@ -13,7 +13,7 @@
 
 namespace terratet {
 
-/// See read_csv_file for what is a cell. Memory: a chunk and the longest record.
+/// See read_csv_file for what is a cell. UTF-16 with its mark comes as UTF-8. Memory: a chunk and the longest record.
 class CsvSplitter {
   public:
     /// Throws InputError when the file cannot be opened.
@@ -31,6 +31,8 @@ class CsvSplitter {
 
   private:
     bool fill();
+    /// Bytes just read behind `end_`, as text; how many there are then.
+    std::size_t decode(std::size_t count);
     /// One record from `begin_` on; false when the buffer ends within it.
     bool split(std::vector<std::string_view>& cells);
     std::string_view quoted_cell(std::size_t& i, bool& complete);
@@ -46,6 +48,9 @@ class CsvSplitter {
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
     bool at_end_ = false;
+    enum class Encoding : std::uint8_t { unknown, bytes, utf16_le, utf16_be };
+    Encoding encoding_ = Encoding::unknown;
+    std::vector<unsigned char> units_;  ///< UTF-16: bytes of a character that is not whole yet
     char separator_ = ',';
     unsigned char kind_[256] = {};  ///< 1: separator, 2: end of a line
     std::int64_t line_ = 1;

@@ -14,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
 #include <span>
 #include <string_view>
 
@@ -24,6 +23,7 @@
 #include "io/base/text_lines.hpp"
 #include "io/base/well_format.hpp"
 #include "io/read/tables/csv_file.hpp"
+#include "io/read/tables/header_rows.hpp"
 #include "io/read/tables/number_style.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
@@ -101,10 +101,17 @@ Table read_layer(OGRLayer& layer, const Source& source, bool csv) {
     table.cells.resize(table.columns.size());
     layer.ResetReading();
     bool any_point = false;
+    std::vector<std::string> cells(table.columns.size());
     while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
-        for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            const std::string text = cell_text(*feature, static_cast<int>(column));
-            table.cells[column].push_back(csv ? without_formula_mark(text) : text);
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            cells[column] = cell_text(*feature, static_cast<int>(column));
+        }
+        const bool blank = std::ranges::all_of(cells, [](const std::string& text) { return text.empty(); });
+        if (blank && feature->GetGeometryRef() == nullptr) {
+            continue;  // as a sheet has them
+        }
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            table.cells[column].push_back(csv ? without_formula_mark(cells[column]) : cells[column]);
         }
         table.points.push_back(point_of(feature->GetGeometryRef()));
         any_point = any_point || table.points.back();
@@ -193,6 +200,9 @@ void drop_columns(Table& table, const std::vector<std::size_t>& last_first) {
     for (const std::size_t column : last_first) {
         table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
         table.cells.erase(table.cells.begin() + static_cast<std::ptrdiff_t>(column));
+        if (!table.stated.units.empty()) {
+            table.stated.units.erase(table.stated.units.begin() + static_cast<std::ptrdiff_t>(column));
+        }
     }
 }
 
@@ -208,19 +218,6 @@ void number_records(Table& table, GDALDataset& dataset, const Source& source) {
     } else if (has_driver(dataset, {"ESRI Shapefile", "FlatGeobuf", "GeoJSON", "GeoJSONSeq"})) {
         std::ranges::for_each(table.lines, [](std::int64_t& line) { ++line; });
     }
-}
-
-/// Are these names of columns after all? A row with a number in it passes for data.
-bool names_columns(const std::vector<std::string>& names) {
-    Table titled;
-    titled.columns = names;
-    std::set<int> found;
-    for (const Meaning meaning : {Meaning::id, Meaning::x, Meaning::y, Meaning::z, Meaning::from, Meaning::to,
-                                  Meaning::depth, Meaning::azimuth, Meaning::dip}) {
-        found.insert(find_optional_column(titled, meaning, {}));
-    }
-    found.erase(-1);
-    return found.size() >= 2;
 }
 
 bool first_row_is_header(const Table& table) {
@@ -303,7 +300,6 @@ bool is_file(const std::string& path) {
 /// What the options say of a text; nothing when they are GDAL's to understand.
 std::optional<CsvOptions> csv_options(const Source& source) {
     CsvOptions options;
-    options.names_columns = names_columns;
     const std::string extension = CPLString(CPLGetExtension(source.path.c_str())).tolower();
     options.separator = extension == "tsv" ? '\t' : extension == "psv" ? '|' : 0;
     for (const auto& [name, sign] :
@@ -348,6 +344,8 @@ struct TableReader::Impl {
     Source source;
     std::optional<CsvFile> text{};
     std::vector<std::size_t> dropped{};
+    std::vector<std::string> columns{};  ///< as the first rows say
+    std::vector<std::string> units{};
     bool begun = false;
 
     std::optional<Table> first(std::size_t most) {
@@ -364,7 +362,14 @@ struct TableReader::Impl {
         if (table.rows() == 0) {
             refuse_empty(source);
         }
+        promote_header(table);
+        take_units_row(table);
+        if (table.rows() == 0) {
+            throw InputError(table.file + ": has no row below its header");
+        }
         dropped = empty_columns(table);
+        columns = table.columns;
+        units = table.stated.units;
         return prepared(std::move(table));
     }
 
@@ -374,6 +379,8 @@ struct TableReader::Impl {
         }
         Table table = text->next(most);
         table.file = source.describe();
+        table.columns = columns;
+        table.stated.units = units;
         return table.rows() > 0 ? std::optional(prepared(std::move(table))) : std::nullopt;
     }
 

@@ -91,9 +91,9 @@ VoxelLayer layer_of(GDALDataset& dataset, GDALRasterBand& band, const std::strin
     std::string unit = band.GetUnitType();
     const std::string long_name = item(dataset, prefix + "long_name");
     const std::string shown = !name.empty() ? name : !variable.empty() ? variable : fallback;
-    return grid_layer(variable.empty() || long_name.empty() ? shown : long_name, unit == "1" ? "" : unit,
-                      !classes.empty() || (integer && !variable.empty()), item(dataset, prefix + "scale") == "log10",
-                      std::move(classes));
+    const bool categorical = !classes.empty() || (integer && !variable.empty());
+    return grid_layer(variable.empty() || long_name.empty() ? shown : long_name, unit == "1" ? "" : unit, categorical,
+                      item(dataset, prefix + "scale") == "log10", std::move(classes));
 }
 
 Dataset open_raster(const std::string& path, const Source& source, const GdalScope& scope) {

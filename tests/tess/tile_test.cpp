@@ -166,3 +166,26 @@ TEST_CASE("a tile in the middle of many vertices reads few of them") {
     CHECK(tile.vertices.size() < all.size() / 4);
     CHECK(tile.mesh.cells.size() > 100);
 }
+
+TEST_CASE("a cell that is flat but for rounding is no reason to read on when all is read") {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int n = 0; n < 100; ++n) {
+        std::vector<Vertex> all = points_of(Kind::random, 0, random);
+        const Vec3 u = 25.0 * Vec3{uniform(random), uniform(random), uniform(random)};
+        const Vec3 v = cross(u, Vec3{uniform(random), uniform(random), uniform(random)});
+        const Vec3 w = (length(u) / length(v)) * v;
+        for (const Vec3& arm : {u, w, -1 * u, -1 * w}) {  // a square, in no plane of ours
+            all.push_back({all.size() + 1, Vec3{50, 50, 50} + arm});
+        }
+        int reads = 0;
+        const Box3 middle{{40, 40, 40}, {60, 60, 60}};
+        const Tile tile = tessellate_tile(middle, hull, 200, [&](const Box3&) {
+            REQUIRE(++reads < 10);
+            return all;
+        });
+        Tessellation whole;
+        whole.insert(all);
+        CHECK(cells_meeting(tile.mesh, tile.vertices, middle) == cells_meeting(whole.mesh(), all, middle));
+    }
+}

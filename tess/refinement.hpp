@@ -43,7 +43,6 @@ struct RefineOptions {
     bool candidates = true;                   ///< rule 4: try points around a circumcentre that would make a flat star
     bool clean_up = true;                     ///< rule 6: move or remove inserted vertices of slivers and tiny cells
     bool residuals = true;                    ///< false leaves the residual criterion to the clean-up
-    /// With a tolerance l_min between samples goes down from l_min to Criteria::l_min_between by steps of √2, and stops
     /// With a tolerance l_min between samples goes down from l_min to Criteria::l_min_between by steps of √2. It stops
     /// before a step that is thought to take more vertices in all than these, or when the cells left to be off hold
     /// less than a thousandth of the box. 0: at the end alone.

@@ -10,9 +10,9 @@
 #include <limits>
 #include <numeric>
 
-#include "tess/base/circumsphere.hpp"
-#include "interp/sites/sphere_tree.hpp"
 #include "interp/base/stolen_volumes.hpp"
+#include "interp/sites/sphere_tree.hpp"
+#include "tess/base/circumsphere.hpp"
 #include "tess/base/wide.hpp"
 
 namespace terratet {

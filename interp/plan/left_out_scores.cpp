@@ -132,21 +132,27 @@ LeftOutScores::LeftOutScores(SampledValues data, const BarrierQuery* barriers, s
                              std::size_t targets)
     : data_(std::move(data)),
       barriers_(barriers != nullptr && !barriers->empty() ? barriers : nullptr),
-      folds_(shared(folds_of(data_.sites, data_.boreholes), most_folds)),
+      boreholes_(folds_of(data_.sites, data_.boreholes)),
+      folds_(shared(boreholes_, most_folds)),
       borehole_of_(data_.sites.size()),
       targets_(targets),
       usual_(median(data_.values)) {
-    const auto boreholes = folds_of(data_.sites, data_.boreholes);
-    for (std::uint32_t b = 0; b < boreholes.size(); ++b) {
-        for (const std::uint32_t i : boreholes[b]) {
+    others_give_.assign(folds_.size(), 0);
+    for (std::uint32_t b = 0; b < boreholes_.size(); ++b) {
+        for (const std::uint32_t i : boreholes_[b]) {
             borehole_of_[i] = b;
         }
+        const bool is_loose = data_.boreholes[boreholes_[b].front()] < 0;
+        for (std::size_t f = 0; f < folds_.size(); ++f) {
+            others_give_[f] += f == b % folds_.size() ? 0
+                               : is_loose             ? boreholes_[b].size()
+                                                      : std::size_t{near_by.per_borehole};
+        }
     }
-    count_ = boreholes.size();
 }
 
 LeftOutScore LeftOutScores::none() const {
-    return {folds_.size(), std::vector<double>(count_, 0), std::vector<double>(count_, 0)};
+    return {folds_.size(), std::vector<double>(boreholes_.size(), 0), std::vector<double>(boreholes_.size(), 0)};
 }
 
 void LeftOutScores::note(std::uint32_t site, double estimate, LeftOutScore& score) const {
@@ -174,14 +180,6 @@ LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_
     const SiteTree tree(places, data_.boreholes);
     const auto asked = some(std::min(targets, targets_));  // fewer of them are a part of all
     const auto all = some(targets_);
-    const auto boreholes = folds_of(data_.sites, data_.boreholes);
-    std::vector<std::size_t> most(folds_.size(), 0);  // that boreholes of other folds may give
-    for (std::size_t b = 0; b < boreholes.size(); ++b) {
-        const bool is_loose = data_.boreholes[boreholes[b].front()] < 0;
-        for (std::size_t f = 0; f < folds_.size(); ++f) {
-            most[f] += f == b % folds_.size() ? 0 : is_loose ? boreholes[b].size() : std::size_t{near_by.per_borehole};
-        }
-    }
     if (barriers_ != nullptr && sight_.empty()) {
         sight_.assign(all.size() * places.size(), unknown);
     }
@@ -201,8 +199,8 @@ LeftOutScore LeftOutScores::by_distance(const Anisotropy& anisotropy, std::size_
                    (barriers_ == nullptr || in_sight(j));
         };
         Neighbourhood limits = near_by;
-        limits.max_points = std::min(limits.max_points, most[borehole_of_[i] % folds_.size()]);
-        limits.max_looked_at = looked_at_max + boreholes[borehole_of_[i]].size();
+        limits.max_points = std::min(limits.max_points, others_give_[borehole_of_[i] % folds_.size()]);
+        limits.max_looked_at = looked_at_max + boreholes_[borehole_of_[i]].size();
         thread_local std::vector<NearSite> near;
         tree.neighbourhood(places[i], limits, usable, near);
         std::vector<SiteWeight> terms;

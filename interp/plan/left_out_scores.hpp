@@ -65,10 +65,11 @@ class LeftOutScores {
 
     SampledValues data_;
     const BarrierQuery* barriers_;
+    std::vector<std::vector<std::uint32_t>> boreholes_;  ///< their sites, as scores number them; blocks of loose ones
     std::vector<std::vector<std::uint32_t>> folds_;
-    std::vector<std::uint32_t> borehole_of_;  ///< of each site, as scores number them
+    std::vector<std::uint32_t> borehole_of_;  ///< of each site
+    std::vector<std::size_t> others_give_;    ///< of each fold: near samples that by_distance can find outside it
     std::size_t targets_;
-    std::size_t count_ = 0;  ///< boreholes
     enum Sight : std::uint8_t { unknown, open, hidden };
     std::vector<Sight> sight_;  ///< of each target, of each site; empty without barriers
     double usual_;              ///< in place of an estimate where there is none

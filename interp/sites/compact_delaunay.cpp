@@ -15,8 +15,8 @@
 #include <limits>
 #include <utility>
 
-#include "tess/base/circumsphere.hpp"
 #include "interp/base/morton.hpp"
+#include "tess/base/circumsphere.hpp"
 
 namespace terratet {
 namespace {

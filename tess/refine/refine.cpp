@@ -261,7 +261,9 @@ class Refiner {
             return;
         }
         if (!find_zone(proposal.point, cell, zone_)) {
-            refused_.push_back(corners(cell));
+            if (rule_.resolution().between() > last_between_) {
+                refused_.push_back(corners(cell));
+            }
             return;
         }
         if (options_.candidates) {
@@ -413,7 +415,7 @@ class Refiner {
     std::optional<Estimate> known_;                   ///< of the cell under treatment
     RefineReport report_;
     std::vector<Corners> at_boundary_;  ///< bad cells whose split is not allowed
-    std::vector<Corners> refused_;      ///< whose vertex would come too near
+    std::vector<Corners> refused_;      ///< whose vertex would come too near, until a finer step
     std::uint64_t inserted_before_retry_ = 0;
     std::uint64_t treated_ = 0;
     double told_ = 0;

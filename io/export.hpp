@@ -74,6 +74,10 @@ std::optional<Collapsing> collapsing(const Model& model, const std::string& form
 /// The format that a path would get, upper case; throws UsageError as export_model does. For checks before any work.
 std::string output_format(const std::string& path, const std::string& override_format = {});
 
+/// For people: the extensions that tell a format, and the formats' names; a tileset's .json is no format's alone.
+std::string export_extensions();
+std::string export_format_names();
+
 OutputRecord write_vtu(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_gltf(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_html(const ModelView& view, const std::string& path, const ExportOptions& options);

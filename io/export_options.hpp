@@ -60,8 +60,7 @@ enum class VoxelValues {
 };
 
 struct ExportOptions {
-    std::string
-        format;  ///< overrides the extension: VTU, GLTF, HTML, PNG, VDB, CSV, GTIFF, COG, NETCDF, BLOCKS, 3DTILES
+    std::string format;  ///< overrides the extension: one of export_format_names()
     bool overwrite = false;
     FaultGap fault_gap = FaultGap::keep;
     bool margin = false;   ///< VTU: all cells of the hull box, uncut; else those in the extent, cut at its planes

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
+#include <utility>
 
 #include "interp/plan/uncertainty.hpp"
 #include "io/voxels/write_voxels.hpp"
@@ -16,22 +18,36 @@ struct Format {
     const char* name;
     const char* extension;
     OutputRecord (*write)(const ModelView&, const std::string&, const ExportOptions&);  ///< null: voxels
+    bool usual = true;  ///< the extension: files are called so elsewhere, too
 };
 
 constexpr Format formats[] = {
-    {"VTU", ".vtu", write_vtu},          {"GLTF", ".glb", write_gltf},         {"GLTF", ".gltf", write_gltf},
-    {"HTML", ".html", write_html},       {"PNG", ".png", write_png},           {"CSV", ".csv", write_csv},
-    {"VTM", ".vtm", write_vtm},          {"MSH", ".msh", write_msh},           {"PVD", ".pvd", write_pvd},
-    {"UGE", ".uge", write_uge},          {"UGI", ".ugi", write_ugi},           {"OGS", ".ogs", write_ogs},
-    {"SURFACES", ".ts", write_surfaces}, {"SURFACES", ".obj", write_surfaces}, {"VDB", ".vdb", nullptr},
-    {"GTIFF", ".tif", nullptr},          {"GTIFF", ".tiff", nullptr},          {"COG", ".cog", nullptr},
-    {"NETCDF", ".nc", nullptr},          {"BLOCKS", ".blocks", nullptr},       {"VOXELTILES", ".voxeltiles", nullptr},
+    {"HTML", ".html", write_html},
+    {"PNG", ".png", write_png},
+    {"GLTF", ".glb", write_gltf},
+    {"GLTF", ".gltf", write_gltf},
+    {"VTU", ".vtu", write_vtu},
+    {"VTM", ".vtm", write_vtm},
+    {"PVD", ".pvd", write_pvd},
+    {"MSH", ".msh", write_msh},
+    {"UGE", ".uge", write_uge},
+    {"UGI", ".ugi", write_ugi},
+    {"OGS", ".ogs", write_ogs, false},
+    {"SURFACES", ".ts", write_surfaces},
+    {"SURFACES", ".obj", write_surfaces},
+    {"VDB", ".vdb", nullptr},
+    {"GTIFF", ".tif", nullptr},
+    {"GTIFF", ".tiff", nullptr},
+    {"COG", ".cog", nullptr, false},
+    {"NETCDF", ".nc", nullptr},
+    {"CSV", ".csv", write_csv},
+    {"BLOCKS", ".blocks", nullptr, false},
+    {"VOXELTILES", ".voxeltiles", nullptr, false},
 };
 
-constexpr const char* choices =
-    ".html, .png, .glb, .gltf, .vtu, .vtm, .pvd, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, .nc, .csv and .json, or "
-    "`format` "
-    "HTML, PNG, GLTF, VTU, VTM, PVD, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, COG, NETCDF, CSV, BLOCKS or VOXELTILES";
+std::string choices() {
+    return export_extensions() + " and .json, or `format` " + export_format_names();
+}
 
 std::string with_case(std::string text, int (*change)(int)) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -47,7 +63,7 @@ const Format& format_of(const std::string& path, const std::string& override_for
                 return format;
             }
         }
-        throw UsageError("unknown output format '" + override_format + "'; there are " + choices);
+        throw UsageError("unknown output format '" + override_format + "'; there are " + choices());
     }
     const std::string extension = with_case(std::filesystem::path(path).extension().string(), std::tolower);
     for (const Format& format : formats) {
@@ -55,10 +71,31 @@ const Format& format_of(const std::string& path, const std::string& override_for
             return format;
         }
     }
-    throw UsageError("'" + path + "' does not tell its format by its extension; there are " + choices);
+    throw UsageError("'" + path + "' does not tell its format by its extension; there are " + choices());
 }
 
 }  // namespace
+
+std::string export_extensions() {
+    std::string names;
+    for (const Format& format : formats) {
+        if (format.usual) {
+            names += (names.empty() ? "" : ", ") + std::string(format.extension);
+        }
+    }
+    return names;
+}
+
+std::string export_format_names() {
+    std::string names;
+    std::string_view last;
+    for (const Format& format : formats) {
+        if (std::exchange(last, format.name) != format.name) {
+            names += (names.empty() ? "" : ", ") + std::string(format.name);
+        }
+    }
+    return names;
+}
 
 std::optional<Collapsing> collapsing(const Model& model, const std::string& format, const ExportOptions& options) {
     if (format == "UGE" || (options.voronoi && (format == "VTU" || format == "VTM" || format == "PVD"))) {

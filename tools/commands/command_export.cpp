@@ -45,21 +45,19 @@ class Export final : public Command {
                 throw UsageError(output + ": is a model; export writes other formats");
             }
         }
-        exporting_.voxels = exporting_.voxels || names_grid(parse_source(input).path);
+        const bool is_grid = names_grid(parse_source(input).path);
+        exporting_.voxels = exporting_.voxels || is_grid;
         check_export_arguments(exporting_);
         const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
         if (writes) {
             check_outputs(outputs, {input}, exporting_, run_);
         }
         start_together(run_.ranks);
-        if (!writes && !any_voxels(outputs, exporting_)) {
+        if (!writes && (is_grid || !any_voxels(outputs, exporting_))) {
             return exit_done;
         }
         const ThreadLimit threads(run_.threads);
-        if (names_grid(parse_source(input).path) && !writes) {
-            return exit_done;
-        }
-        if (names_grid(parse_source(input).path)) {
+        if (is_grid) {
             if (!run_.report.empty()) {
                 throw UsageError("--report: tells of models, and " + input + " is a grid");
             }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "io/export.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 #include "tools/options/choice.hpp"
@@ -136,16 +137,12 @@ OutputRequest parse_output(const std::string& text, const ExportArguments& argum
 
 std::vector<OptionGroup> export_options(ExportArguments& a) {
     return {
-        {"Outputs (by extension: .html, .png, .glb, .gltf, .vtu, .vtm, .pvd, .msh, .uge, .ugi, .ts, .obj, .vdb, .tif, "
-         ".nc, .csv, .json)",
+        {"Outputs (by extension: " + export_extensions() + ", .json)",
          {
              {{"of"},
               "FORMAT",
-              "instead of the extension's: HTML, PNG, GLTF, VTU, VTM, PVD, MSH, UGE, UGI, OGS, SURFACES, VDB, GTIFF, "
-              "COG, "
-              "NETCDF, "
-              "CSV, BLOCKS, "
-              "VOXELTILES; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",
+              "instead of the extension's: " + export_format_names() +
+                  "; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",
               &a.format},
              {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES", &a.voxels},
              {{"tr", "voxel-size"},

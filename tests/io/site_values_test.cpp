@@ -86,8 +86,9 @@ TEST_CASE("a column of words with a few numbers is no property unless asked for,
 TEST_CASE("words that come again are told as possible classes, in one note; remarks are not") {
     Case hole;
     hole.collars(two_collars)
-        .log("BHID,DEPTH,K,LITH,UNIT,REMARK\nA,1,1,clay,U,wet\nA,2,2,clay,U,dry\nA,3,3,sand,V,broken\n"
-             "A,4,3,sand,V,core lost\n");
+        .log(
+            "BHID,DEPTH,K,LITH,UNIT,REMARK\nA,1,1,clay,U,wet\nA,2,2,clay,U,dry\nA,3,3,sand,V,broken\n"
+            "A,4,3,sand,V,core lost\n");
     const Read result = read(hole.inputs);
     REQUIRE(result.site.properties.size() == 1);
     CHECK(result.noted("LITH, UNIT hold words and are left out; `properties` LITH:categorical takes the first"));

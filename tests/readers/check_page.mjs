@@ -9,18 +9,16 @@
 // WORK is JSON: {picks: [[x, y, z], …], cut: VALUE, property: NAME, hole: ID}, each optional. Fails when the page asks for
 // anything, says anything on the console, or does not come up.
 import { spawn } from 'node:child_process';
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
+import { chromium, flags, newProfile, removeProfile } from './browser.mjs';
+
 const [page, picture, work] = [process.argv[2], process.argv[3], JSON.parse(process.argv[4] ?? '{}')];
-const profile = await mkdtemp(path.join(tmpdir(), 'terratet-chromium-'));
-const browser = spawn(process.env.CHROMIUM || 'chromium', [
-  '--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
-  '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--hide-scrollbars',
-  '--disable-dev-shm-usage', `--user-data-dir=${profile}`, '--window-size=1400,900', '--remote-debugging-pipe', 'about:blank',
-], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+const profile = await newProfile();
+const browser = spawn(chromium, [...flags(profile, '1400,900'), '--remote-debugging-pipe', 'about:blank'],
+                      { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
 
 /** The debugging protocol over pipes: JSON messages, each ended by a zero byte. */
 let next = 1;
@@ -156,7 +154,7 @@ try {
 } finally {
   browser.kill();
   await new Promise((done) => { browser.on('exit', done); setTimeout(done, 3000); });
-  await rm(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+  await removeProfile(profile);
 }
 console.log(JSON.stringify(seen, null, 1));
 if (failed || seen.requests.length || seen.console.length) {

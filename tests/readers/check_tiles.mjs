@@ -7,21 +7,21 @@
 // CesiumJS calls a tile that is left out a failed one.
 //
 //   check_tiles.mjs --modules NODE_MODULES --viewers NODE_MODULES --terratet PROGRAM [--picture FOLDER]
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 
+import { ofModules, show } from './browser.mjs';
+
 const { values: options } = parseArgs({
   options: { modules: { type: 'string' }, viewers: { type: 'string' }, terratet: { type: 'string' }, picture: { type: 'string' } },
 });
 const here = path.dirname(fileURLToPath(import.meta.url));
 const folder = await mkdtemp(path.join(tmpdir(), 'terratet-tiles-'));
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.css': 'text/css' };
 const problems = [];
 
 const size = [140, 72, 48];
@@ -43,54 +43,20 @@ function table() {
   return rows.join('\n');
 }
 
-let result = null;
-let report;
-const server = createServer(async (request, response) => {
-  if (request.method === 'POST') {
-    let body = '';
-    for await (const chunk of request) body += chunk;
-    result = JSON.parse(body);
-    response.end();
-    report();
-    return;
-  }
-  const url = new URL(request.url, 'http://localhost').pathname;
-  const name = url === '/' ? path.join(here, 'tiles.html')
-    : path.join(url.startsWith('/modules/') ? options.viewers : folder,
-                path.normalize(url.replace('/modules', '').replace('/data', '')));
-  try {
-    const bytes = await readFile(name);
-    response.writeHead(200, { 'content-type': types[path.extname(name)] ?? 'application/octet-stream' });
-    response.end(bytes);
-  } catch {
-    response.writeHead(404);
-    response.end();
-  }
-});
+function fileOf(url) {
+  if (url === '/') return path.join(here, 'tiles.html');
+  return url.startsWith('/data/') ? path.join(folder, path.normalize(url.slice('/data'.length)))
+    : ofModules(url, options.viewers);
+}
 
 async function draw(name, job, least) {
-  const profile = await mkdtemp(path.join(tmpdir(), 'terratet-chromium-'));
-  result = null;
-  const reported = new Promise((resolve) => { report = resolve; });
-  const browser = spawn(process.env.CHROMIUM || 'chromium', [
-    '--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-    '--disable-sync', '--hide-scrollbars', '--disable-dev-shm-usage', `--user-data-dir=${profile}`,
-    '--window-size=800,640', '--remote-debugging-port=0',
-    `http://127.0.0.1:${server.address().port}/?job=${encodeURIComponent(JSON.stringify(job))}`,
-  ], { stdio: 'ignore' });
-  const gone = new Promise((resolve) => { browser.on('exit', resolve); });
-  let timer;
-  await Promise.race([reported, gone, new Promise((resolve) => { timer = setTimeout(resolve, 170000); })]);
-  clearTimeout(timer);
-  browser.kill();
-  await gone;
-  await rm(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
-  console.log(name, JSON.stringify({ ...result, picture: undefined }));
-  if (options.picture && result) {
-    await writeFile(path.join(options.picture, `${name}.png`), Buffer.from(result.picture.split(',')[1], 'base64'));
+  const { found } = await show(fileOf, `job=${encodeURIComponent(JSON.stringify(job))}`, '800,640', 170000);
+  const { picture, ...told } = found ?? {};
+  console.log(name, JSON.stringify(told));
+  if (options.picture && picture) {
+    await writeFile(path.join(options.picture, `${name}.png`), Buffer.from(picture.split(',')[1], 'base64'));
   }
-  if (!result || result.log.length || result.pixels.red || !(result.pixels.green > least)) {
+  if (!found || found.log.length || found.pixels.red || !(found.pixels.green > least)) {
     problems.push(`${name}: not all pixels are right`);
   }
 }
@@ -108,9 +74,8 @@ async function validate(tiles) {
 }
 
 try {
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   await writeFile(path.join(folder, 'table.csv'), table());
-  execFileSync(options.terratet, ['export', '--voxels', 'table.csv,srs=EPSG:3067', 't.json', '-q'], { cwd: folder });
+  execFileSync(path.resolve(options.terratet), ['export', '--voxels', 'table.csv,srs=EPSG:3067', 't.json', '-q'], { cwd: folder });
   const { root, extras } = JSON.parse(await readFile(path.join(folder, 't.json')));
   const { box } = root.boundingVolume;
   const { dimensions } = root.content.extensions['3DTILES_content_voxels'];
@@ -130,7 +95,6 @@ try {
                            right: rock.replace('ROCK', '1.0 : 0.0') }, 20000);
   await validate(path.join(folder, 't', 'content'));
 } finally {
-  server.close();
   await rm(folder, { recursive: true, force: true });
 }
 for (const problem of problems) console.log(problem);

@@ -8,65 +8,39 @@
 // Fails unless WebGL drew, a fair part of the picture is not background, and the named nodes (by the beginning of the
 // name) are in three.js's scene with triangles, colours and values.
 import { execFile } from 'node:child_process';
-import { mkdtemp, readFile, rm, stat } from 'node:fs/promises';
-import { createServer } from 'node:http';
-import { tmpdir } from 'node:os';
+import { rm, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs, promisify } from 'node:util';
+
+import { chromium, flags, newProfile, ofModules, removeProfile, serve } from './browser.mjs';
 
 const { values: options, positionals: [file, picture] } = parseArgs({
   allowPositionals: true,
   options: { modules: { type: 'string' }, node: { type: 'string', multiple: true, default: [] } },
 });
 const here = path.dirname(fileURLToPath(import.meta.url));
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.glb': 'model/gltf-binary', '.gltf': 'model/gltf+json' };
 
-/** What the page found, or why it found nothing. */
-let result = null;
-
-function localFile(url) {
+function fileOf(url) {
   if (url === '/') return path.join(here, 'view.html');
-  if (url.startsWith('/scene')) return file;
-  if (url.startsWith('/modules/')) return path.join(options.modules, path.normalize(url.slice('/modules'.length)));
-  return null;
+  return url.startsWith('/scene') ? file : ofModules(url, options.modules);
 }
 
-const server = createServer(async (request, response) => {
-  if (request.method === 'POST') {
-    let body = '';
-    for await (const chunk of request) body += chunk;
-    result = JSON.parse(body);
-    response.end();
-    return;
-  }
-  const name = localFile(new URL(request.url, 'http://localhost').pathname);
-  try {
-    const bytes = await readFile(name);
-    response.writeHead(200, { 'content-type': types[path.extname(name)] ?? 'application/octet-stream' });
-    response.end(bytes);
-  } catch {
-    response.writeHead(404);
-    response.end();
-  }
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-
-const profile = await mkdtemp(path.join(tmpdir(), 'terratet-chromium-'));
+const served = await serve(fileOf);
+const profile = await newProfile();
 await rm(picture, { force: true });
 try {
-  await promisify(execFile)(process.env.CHROMIUM ?? 'chromium', [
-    '--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-    '--disable-sync', '--hide-scrollbars', '--disable-dev-shm-usage', `--user-data-dir=${profile}`,
-    '--window-size=1200,900', '--virtual-time-budget=20000', `--screenshot=${path.resolve(picture)}`,
-    `http://127.0.0.1:${server.address().port}/?scene=/scene${path.extname(file)}`,
+  await promisify(execFile)(chromium, [
+    ...flags(profile, '1200,900'), '--virtual-time-budget=20000', `--screenshot=${path.resolve(picture)}`,
+    `${served.address}?scene=/scene${path.extname(file)}`,
   ], { timeout: 120000 });
 } finally {
-  server.close();
-  await rm(profile, { recursive: true, force: true });
+  served.close();
+  await removeProfile(profile);
 }
 
+/** What the page found, or why it found nothing. */
+const result = served.found;
 const problems = [];
 if (!result) {
   problems.push('the page did not report');

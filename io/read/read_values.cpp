@@ -108,6 +108,9 @@ bool may_be_classes(const auto& column) {
             words.insert(text);
             ++filled;
         }
+        if (2 * words.size() > column.size()) {
+            return false;  // a long column of remarks
+        }
     }
     return words.size() > 1 && 2 * words.size() <= filled;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 #include "io/base/lower_case.hpp"
 #include "io/base/rejections.hpp"
@@ -44,16 +45,19 @@ class Pivot {
   public:
     Pivot(const Table& table, std::size_t time, const std::vector<std::string>& times, const ColumnNames& names,
           const std::vector<std::string>& wanted)
-        : table_(table), time_(time), times_(times), wanted_(wanted), is_place_(place_columns(table, names)) {}
+        : table_(table), time_(time), times_(times), wanted_(wanted), is_place_(place_columns(table, names)) {
+        for (std::size_t t = 0; t < times.size(); ++t) {
+            step_of_.emplace(times[t], t);
+        }
+    }
 
     std::vector<std::size_t> group(Diagnostics& diagnostics) {
         Rejections rejections(diagnostics, table_.file);
         std::map<std::string, std::size_t> group_of;
         std::vector<std::size_t> first;
         for (std::size_t row = 0; row < table_.rows(); ++row) {
-            const std::string label = time_label(table_.cells[time_][row]);
-            const auto step = static_cast<std::size_t>(std::ranges::find(times_, label) - times_.begin());
-            if (label.empty() || step == times_.size()) {
+            const auto step = step_of_.find(time_label(table_.cells[time_][row]));
+            if (step == step_of_.end()) {
                 rejections.add(table_.lines[row], [&] { return "no time in column " + table_.columns[time_]; });
                 continue;
             }
@@ -62,7 +66,7 @@ class Pivot {
                 first.push_back(row);
                 rows_.emplace_back(times_.size(), none);
             }
-            std::size_t& taken = rows_[entry->second][step];
+            std::size_t& taken = rows_[entry->second][step->second];
             if (taken == none) {
                 taken = row;
             } else {
@@ -143,6 +147,7 @@ class Pivot {
     const std::vector<std::string>& times_;
     const std::vector<std::string>& wanted_;
     std::vector<bool> is_place_;
+    std::unordered_map<std::string, std::size_t> step_of_;
     std::vector<std::vector<std::size_t>> rows_;  ///< by place and time
 };
 

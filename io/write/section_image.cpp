@@ -18,6 +18,7 @@
 #include "io/base/output_file.hpp"
 #include "io/style/color_map.hpp"
 #include "io/style/markup.hpp"
+#include "io/style/property_title.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -247,8 +248,8 @@ class SectionSvg final : public SectionImage {
                        ? class_color(static_cast<std::size_t>(std::round(mean)))
                        : map.at(highest > lowest ? (mean - lowest) / (highest - lowest) : 0.5);
         };
-        text += fmt::format("<text x=\"0\" y=\"-16\" font-size=\"14\">{}{}</text>\n", markup_text(property.name),
-                            property.unit.empty() ? "" : markup_text(" [" + property.unit + "]"));
+        text +=
+            fmt::format("<text x=\"0\" y=\"-16\" font-size=\"14\">{}</text>\n", markup_text(property_title(property)));
         for (std::size_t i = 0; i < polygons_.size(); ++i) {
             const std::string fill = hex(color(means[i]));
             text += fmt::format("<polygon fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.3\" points=\"", fill);

@@ -12,6 +12,7 @@
 #include "grid_model.hpp"
 #include "io/base/crs.hpp"
 #include "io/export.hpp"
+#include "io/style/property_title.hpp"
 #include "io/write/scene/camera.hpp"
 #include "io/write/scene/coloring.hpp"
 #include "io/write/scene/raster.hpp"
@@ -140,6 +141,17 @@ TEST_CASE("A picture has its size, the legend's colours, and the scene in them")
     options.title = "another title";
     write_png({grid.model, grid.mesh, grid.cells}, folder / "b.png", options);
     CHECK(bytes_of(folder / "a.png") != bytes_of(folder / "b.png"));
+}
+
+TEST_CASE("A title says the unit once, also where the column's header says it already") {
+    const auto title = [](const std::string& name, const std::string& unit) {
+        return property_title({name, unit, Scale::linear, Kind::continuous, {}});
+    };
+    CHECK(title("CU", "%") == "CU [%]");
+    CHECK(title("As (ug/L)", "ug/L") == "As (ug/L)");
+    CHECK(title("K [m/s]", "m/s") == "K [m/s]");
+    CHECK(title("K (field)", "m/s") == "K (field) [m/s]");
+    CHECK(title("pH", "") == "pH");
 }
 
 TEST_CASE("Legend ticks are round numbers within the range, decades for log10") {

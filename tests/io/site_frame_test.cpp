@@ -223,3 +223,11 @@ TEST_CASE("a hole without survey goes in its collar's direction, or else straigh
     CHECK(result.noted("1 of 4 holes have no survey and go straight in their collar's direction"));
     CHECK(result.noted("1 of 4 holes have no survey and no direction and are taken for vertical"));
 }
+
+TEST_CASE("Holes without any log are read, and it is said that nothing is known of the ground between them") {
+    Case bare;
+    bare.collars("BHID,X,Y,Z,EOH\nA,0,0,0,50\nB,30,0,0,50\n");
+    CHECK(read(bare.inputs).noted("no log is given"));
+    bare.log("BHID,FROM,TO,CU\nA,0,1,1\n");
+    CHECK_FALSE(read(bare.inputs).noted("no log is given"));
+}

@@ -62,6 +62,7 @@ class Usage(Case):
         self.convert("--df-max", "gold=1", saying="gold")
         self.usage("convert", "--log", "s.csv", "o.csv", saying="--boreholes")
         self.usage("convert", "o.csv", saying="no input")
+        self.usage("convert", "s.csv", "o.vtu", saying="; s.csv would be written")
         self.usage("build", "--samples", "s.csv", saying="-o")
         self.usage("build", "--samples", "s.csv", "-o", "o.vtu", saying="terratet convert")
         self.usage("convert", "--samples", "s.csv", saying="OUTPUT is missing")

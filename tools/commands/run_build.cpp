@@ -2,17 +2,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/commands/run_build.hpp"
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <optional>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "tess/error.hpp"
 #include "tools/report/report.hpp"
 #include "tools/run/process.hpp"
 #include "tools/run/progress_display.hpp"
 
 namespace terratet::tools {
+namespace {
+
+/// Without any input, files that are there and stand where outputs do are most likely meant as inputs.
+void require_inputs(const BuildArguments& a) {
+    if (!input_paths(a.site).empty()) {
+        return;
+    }
+    std::vector<std::string> present;
+    std::ranges::copy_if(a.outputs, std::back_inserter(present),
+                         [](const std::string& path) { return std::filesystem::is_regular_file(path); });
+    throw UsageError("no input: give --boreholes with --log, or --samples" +
+                     (present.empty() ? "" : fmt::format("; {} would be written", fmt::join(present, ", "))));
+}
+
+}  // namespace
+
 int run_build(const std::string& command, const BuildArguments& a, const std::vector<Given>& given) {
     const Stopwatch total;
+    require_inputs(a);
     check_before_reading(a.site, a.model, a.run);
     check_export_arguments(a.exporting);
     check_outputs(a.outputs, input_paths(a.site), a.exporting, a.run);

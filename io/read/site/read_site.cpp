@@ -395,6 +395,9 @@ Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& co
     for (PlacedTable& placed : read.samples) {
         read_loose_samples(placed, inputs, catalogue, samples, diagnostics);
     }
+    if (!read.collars.empty() && read.logs.empty() && read.samples.empty()) {
+        diagnostics.note("no log is given: the holes are there, but the tessellation has no property to follow");
+    }
     checkpoint.pass(0.9);
 
     Site site;

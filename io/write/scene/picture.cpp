@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/style/property_title.hpp"
 #include "io/write/scene/canvas.hpp"
 #include "io/write/scene/raster.hpp"
 #include "io/write/scene/scene_text.hpp"
@@ -118,15 +119,38 @@ class Axes {
             canvas_.line(at.x, at.y, at.x + 0.4 * size_ * outwards.x, at.y + 0.4 * size_ * outwards.y, 1, faint);
             put(at + 0.75 * size_ * outwards, outwards, number_text(tick.value, 10));
         }
+        const std::string title = name + " [" + short_unit(frame) + "]";
         const Vec3 middle = 0.5 * (flat(from) + flat(to));
-        put(middle + (axis == 2 ? 4.6 : 2.6) * size_ * outwards, outwards, name + " [" + short_unit(frame) + "]");
+        double away = 2.4 * size_;
+        while (away < 12 * size_ && is_taken(place(middle + away * outwards, outwards, title))) {
+            away += 0.2 * size_;
+        }
+        put(middle + away * outwards, outwards, title);
+    }
+
+    /// Where a text would stand beside its place: its left end on the baseline, and its width.
+    struct Line {
+        double x;
+        double y;
+        double width;
+    };
+
+    Line place(const Vec3& at, const Vec3& outwards, const std::string& text) {
+        const double width = canvas_.text_width(text, 0.85 * size_);
+        const double left = outwards.x < -0.3 ? width : outwards.x > 0.3 ? 0 : width / 2;
+        return {at.x - left, at.y + size_ * (0.35 + 0.45 * outwards.y), width};
+    }
+
+    [[nodiscard]] bool is_taken(const Line& line) const {
+        return std::ranges::any_of(lines_, [&](const Line& other) {
+            return std::abs(line.y - other.y) < 1.1 * size_ && line.x < other.x + other.width + 0.6 * size_ &&
+                   other.x < line.x + line.width + 0.6 * size_;
+        });
     }
 
     void put(const Vec3& at, const Vec3& outwards, const std::string& text) {
-        const auto align = outwards.x < -0.3  ? Canvas::Align::right
-                           : outwards.x > 0.3 ? Canvas::Align::left
-                                              : Canvas::Align::middle;
-        canvas_.text(at.x, at.y + size_ * (0.35 + 0.45 * outwards.y), text, 0.85 * size_, faint, align);
+        lines_.push_back(place(at, outwards, text));
+        canvas_.text(lines_.back().x, lines_.back().y, text, 0.85 * size_, faint);
     }
 
     [[nodiscard]] Vec3 flat(const Vec3& local) const {
@@ -148,6 +172,7 @@ class Axes {
     const Scene& scene_;
     const Model& model_;
     double size_;
+    std::vector<Line> lines_;  // written so far
 };
 
 /// Of the isosurfaces that nobody asked for only the last is drawn: through several nothing would be seen.

@@ -70,10 +70,6 @@ double share_beyond_reach(const SceneCells& cells) {
 
 }  // namespace
 
-std::string property_title(const Property& property) {
-    return property.unit.empty() ? property.name : property.name + " [" + property.unit + "]";
-}
-
 std::string crs_title(const Frame& frame) {
     if (frame.crs_name.find("EPSG:") == std::string::npos) {
         if (const Crs crs = crs_from_wkt(frame.crs_wkt); !crs.name.empty()) {

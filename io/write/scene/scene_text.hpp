@@ -10,9 +10,6 @@
 
 namespace terratet {
 
-/// "CU [%]"
-std::string property_title(const Property& property);
-
 /// "EPSG:3067 ETRS89 / TM35FIN(E,N)", or that there is none.
 std::string crs_title(const Frame& frame);
 

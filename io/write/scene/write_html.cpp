@@ -13,6 +13,7 @@
 #include "io/base/output_file.hpp"
 #include "io/export.hpp"
 #include "io/style/markup.hpp"
+#include "io/style/property_title.hpp"
 #include "io/write/scene/gltf_document.hpp"
 #include "io/write/scene/picture.hpp"
 #include "io/write/scene/scene_page.hpp"

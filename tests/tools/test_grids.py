@@ -4,10 +4,13 @@
 import csv
 import math
 import random
+import subprocess
 import unittest
 
 from terratet import Case, twin_inputs
 from test_tiles import Tileset
+
+VDB_PYTHON = "/usr/bin/python3"  # Debian's python3-openvdb
 
 
 def field(x, y, z):
@@ -101,6 +104,29 @@ class Grids(Case):
         self.fail_with(3, "export", "no.vdb", "t.nc", "-q", saying="OpenVDB")
         self.write("no.nc", "no")
         self.fail_with(3, "export", "no.nc", "t.vdb", "-q", saying="no.nc")
+
+    def test_a_place_that_has_a_value_twice_is_no_grids(self):
+        self.write("no.csv", "x,y,z,v,w\n0,0,0,1,\n10,0,0,1,2\n0,0,0,,3\n10,0,0,,4\n")
+        self.fail_with(3, "export", "no.csv", "no.vdb", "-q", saying="line 5: w has a value")
+
+    def test_what_is_far_apart_in_openvdb_costs_only_what_is_there(self):
+        program = """
+import sys
+import pyopenvdb
+for name, far in ("wide", (70000, 70000, 0)), ("endless", (2 * 10**9, 2 * 10**9, -2 * 10**9)):
+    grid = pyopenvdb.FloatGrid()
+    grid.name = "K"
+    grid.fill((0, 0, 0), (300, 40, 20), 3.0)  # tiles and leaves
+    grid.getAccessor().setValueOn(far, 2.0)
+    pyopenvdb.write(name + ".vdb", [grid])
+"""
+        subprocess.run([VDB_PYTHON, "-c", program], cwd=self.folder, check=True)
+        self.fail_with(3, "export", "endless.vdb", "e.nc", "-q", saying="2000000001 x 2000000001 x 2000000021")
+        self.fail_with(2, "export", "wide.vdb", "w.nc", "-q", saying="70001 × 70001 × 21 voxels")
+        self.succeed("export", "wide.vdb", "w.vdb", "--allow-large", "-q")
+        count = "import pyopenvdb; print(pyopenvdb.read('w.vdb', 'K').activeVoxelCount())"
+        result = subprocess.run([VDB_PYTHON, "-c", count], cwd=self.folder, capture_output=True, text=True, check=True)
+        self.assertEqual(int(result.stdout), 301 * 41 * 21 + 1)
 
     def test_a_models_values_at_the_places_of_a_grid_are_those_that_query_gives(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")

@@ -35,6 +35,9 @@ void set_ranges(GridContents& contents) {
         for (std::int64_t x = 0; x < n[0]; x += Brick::edge) {
             for (std::int64_t y = 0; y < n[1]; y += Brick::edge) {
                 for (std::int64_t z = 0; z < n[2]; z += Brick::edge) {
+                    if (contents.blocks->is_empty(f, {x / Brick::edge, y / Brick::edge, z / Brick::edge})) {
+                        continue;
+                    }
                     contents.blocks->gather(0, f, {x, y, z}, {Brick::edge, Brick::edge, Brick::edge}, values);
                     for (const float value : values) {
                         if (value > 0) {
@@ -62,6 +65,11 @@ GridSource::GridSource(GridContents contents) : contents_(std::move(contents)) {
 void GridSource::fill(Brick& brick) const {
     for (std::size_t f = 0; f < fields(); ++f) {
         std::vector<float>& values = brick.values[f];
+        values.clear();
+        if (contents_.blocks->is_empty(
+                f, {brick.lo[0] / Brick::edge, brick.lo[1] / Brick::edge, brick.lo[2] / Brick::edge})) {
+            continue;
+        }
         contents_.blocks->gather(0, f, brick.lo, {Brick::edge, Brick::edge, Brick::edge}, values);
         if (std::ranges::all_of(values, [](float value) { return std::isnan(value); })) {
             values.clear();

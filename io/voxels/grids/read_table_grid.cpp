@@ -75,7 +75,7 @@ class TableGrid {
             counts_[a] = (axes_[a].count + Brick::edge - 1) / Brick::edge;
         }
         blocks_.resize(static_cast<std::size_t>(counts_[0] * counts_[1] * counts_[2]));
-        stream([&](const Cells& cells, std::int64_t) { put(cells); });
+        stream([&](const Cells& cells, std::int64_t line) { put(cells, line); });
         std::vector<std::size_t> same(columns_.size());
         for (std::size_t c = 0; c < same.size(); ++c) {
             same[c] = c;
@@ -229,7 +229,7 @@ class TableGrid {
         name_layers(grid.layers);
     }
 
-    void put(const Cells& cells) {
+    void put(const Cells& cells, std::int64_t line) {
         double at[3];
         if (!place_of(cells, at)) {
             return;
@@ -251,6 +251,10 @@ class TableGrid {
             }
             if (block[c].empty()) {
                 block[c].assign(static_cast<std::size_t>(edge * edge * edge), no_value);
+            }
+            if (!std::isnan(block[c][voxel])) {
+                throw InputError(source_.describe() + ": line " + std::to_string(line) + ": " + columns_[c].name +
+                                 " has a value at this place already, by a row above; a grid has one a place");
             }
             block[c][voxel] =
                 columns_[c].text ? columns_[c].classes.find(cell)->second : static_cast<float>(*parse_number(cell));

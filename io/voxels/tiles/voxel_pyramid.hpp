@@ -39,6 +39,10 @@ class VoxelPyramid {
 
     [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }
     [[nodiscard]] const Index& size(int level) const { return levels_[static_cast<std::size_t>(level)].size; }
+    /// Of level 0: whether a field has no value in a block.
+    [[nodiscard]] bool is_empty(std::size_t field, const Index& block) const {
+        return levels_.front().begin[slot(levels_.front(), block, field)] == none;
+    }
     /// Values of a box of voxels, z fastest; NaN where there is none, within the lattice or beyond. From many threads.
     void gather(int level, std::size_t field, const Index& lo, const std::array<int, 3>& count,
                 std::vector<float>& out) const;

@@ -161,6 +161,34 @@ class Query(Case):
         self.assertEqual(len(drawing.findall(".//{*}polygon")), count)
         self.fail_with(1, "query", "m.gpkg", "section", line, "-o", "s.tif", saying="exists")
 
+    def test_a_section_gives_each_place_a_class_that_is_near_not_a_mean_of_numbers(self):
+        """Sand lies on clay, far from any gravel, whose number is between theirs."""
+        depths = [(i * 5, "sand" if i < 6 else "clay" if i < 14 else "gravel") for i in range(20)]
+        holes = [(0, 0), (150, -20), (80, 150), (290, 100)]
+        self.write("collar.csv", "id,x,y,z\n" + "".join(f"h{n},{x},{y},0\n" for n, (x, y) in enumerate(holes)))
+        self.write("log.csv", "id,from,to,rock\n" + "".join(f"h{n},{d},{d + 5},{rock}\n" for n in range(4) for d, rock in depths))
+        self.succeed("build", "--boreholes", "collar.csv", "--log", "log.csv", "--property", "rock:categorical", "-s_srs", "local",
+                     "--lmin", "8", "-o", "rocks.gpkg")
+        line = ("--at", "5,5,0", "--at", "285,95,0")
+        rows = list(csv.DictReader(io.StringIO(self.succeed("query", "rocks.gpkg", "section", *line).stdout)))
+        self.assertEqual({row["rock"] for row in rows}, {"sand", "clay", "gravel"})
+        self.assertEqual([row for row in rows if row["rock"] == "gravel" and float(row["z"]) > -40], [])
+        self.succeed("query", "rocks.gpkg", "section", *line, "-o", "rocks.tif")
+        info = json.loads(subprocess.run(["gdalinfo", "-json", "rocks.tif"], cwd=self.folder, capture_output=True, text=True,
+                                         check=True).stdout)
+        x0, dx, _, y0, _, dy = info["geoTransform"]
+        width, height = info["size"]
+        classes = [info["bands"][0]["metadata"][""][f"CLASS_{n}"] for n in range(3)]
+        self.assertEqual(classes, ["clay", "gravel", "sand"])
+        pixels = [((i * 397 + 11) % width, (i * 613 + 7) % height) for i in range(400)]
+        values = subprocess.run(["gdallocationinfo", "-valonly", "rocks.tif"], cwd=self.folder, capture_output=True, text=True, check=True,
+                                input="".join(f"{c} {r}\n" for c, r in pixels)).stdout.split()
+        along = math.hypot(280, 90)
+        places = [(5 + (x0 + (c + 0.5) * dx) / along * 280, 5 + (x0 + (c + 0.5) * dx) / along * 90, y0 + (r + 0.5) * dy) for c, r in pixels]
+        cells = csv.DictReader(io.StringIO(self.succeed(
+            "query", "rocks.gpkg", "cell", self.write("p.csv", "x,y,z\n" + "".join("%r,%r,%r\n" % place for place in places))).stdout))
+        self.assertEqual([classes[int(float(value))] for value in values], [cell["rock"] for cell in cells])
+
     def test_what_cannot_be_done_is_said(self):
         points = self.write("p.csv", "a,b\n1,2\n")
         self.fail_with(2, "query", "m.gpkg", "values", points, saying="did you mean value?")

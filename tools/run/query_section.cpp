@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tess/cut_cells.hpp"
@@ -10,33 +11,47 @@
 namespace terratet::tools {
 namespace {
 
-/// A corner of a section's polygon with its values, in each property's scale.
+/// A corner of a section's polygon, with the weights of its cell's four vertices there.
 struct Corner {
     Vec3 place;
-    std::vector<double> values;
+    std::array<double, 4> weights{};
 };
 
-/// What lies on the side of the plane that its normal points from is cut off (Sutherland and Hodgman).
-std::vector<Corner> clipped(const std::vector<Corner>& polygon, const CutPlane& plane) {
-    std::vector<Corner> result;
+using Polygon = std::vector<Corner>;
+
+/// What lies where a distance, linear in space, is negative is cut off (Sutherland and Hodgman).
+template <class Distance>
+Polygon clipped(const Polygon& polygon, Distance&& distance) {
+    Polygon result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Corner& a = polygon[i];
         const Corner& b = polygon[(i + 1) % polygon.size()];
-        const double da = plane.distance(a.place);
-        const double db = plane.distance(b.place);
+        const double da = distance(a);
+        const double db = distance(b);
         if (da >= 0) {
             result.push_back(a);
         }
         if ((da < 0) != (db < 0)) {
             const double t = da / (da - db);
-            Corner between{a.place + t * (b.place - a.place), a.values};
-            for (std::size_t k = 0; k < between.values.size(); ++k) {
-                between.values[k] += t * (b.values[k] - a.values[k]);
+            Corner between{a.place + t * (b.place - a.place), a.weights};
+            for (std::size_t k = 0; k < 4; ++k) {
+                between.weights[k] += t * (b.weights[k] - a.weights[k]);
             }
-            result.push_back(std::move(between));
+            result.push_back(between);
         }
     }
     return result;
+}
+
+/// The part in which a vertex has the largest weight, as voxels and pictures give a place its class.
+Polygon nearest_to(const Polygon& polygon, std::size_t vertex) {
+    Polygon part = polygon;
+    for (std::size_t other = 0; other < 4; ++other) {
+        if (other != vertex) {
+            part = clipped(part, [&](const Corner& c) { return c.weights[vertex] - c.weights[other]; });
+        }
+    }
+    return part;
 }
 
 /// One plane of the section and where it ends besides the extent.
@@ -67,10 +82,6 @@ class Section {
         const TetMesh& mesh = opened_.mesh();
         const CellCut cut = cut_cells(mesh.points, mesh.cells, part.plane, left_out_);
         const std::vector<Vec3> places = cut.positions(mesh.points);
-        std::vector<std::vector<double>> values;
-        for (std::size_t p = 0; p < model_.properties.size(); ++p) {
-            values.push_back(cut.values(model_.properties[p], model_.vertex_values.values[p]));
-        }
         std::vector<CutPlane> ends = part.ends;
         const Box3& extent = model_.domain.extent;
         for (int axis = 0; axis < 3; ++axis) {
@@ -80,18 +91,20 @@ class Section {
             ends.push_back({-normal, -extent.hi[axis]});
         }
         for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
-            std::vector<Corner> polygon;
+            const CellCorners& vertices = mesh.cells[cut.cell[t]];
+            Polygon polygon;
             for (const std::uint32_t corner : cut.triangles[t]) {
-                polygon.push_back({places[corner], {}});
-                for (std::size_t p = 0; p < values.size(); ++p) {
-                    polygon.back().values.push_back(to_scale(model_.properties[p], values[p][corner]));
-                }
+                polygon.push_back({places[corner], weights_in(vertices, cut.corners[corner])});
             }
             for (const CutPlane& end : ends) {
-                polygon = clipped(polygon, end);
+                polygon = clipped(polygon, [&](const Corner& c) { return end.distance(c.place); });
             }
-            if (polygon.size() >= 3) {
-                write(polygon, part, cut.cell[t]);
+            if (has_one_class(vertices)) {
+                write(polygon, part, cut.cell[t], vertices[0]);
+                continue;
+            }
+            for (std::size_t k = 0; k < 4; ++k) {
+                write(nearest_to(polygon, k), part, cut.cell[t], vertices[k]);
             }
         }
         sink_.add(rows_);
@@ -99,44 +112,87 @@ class Section {
     }
 
   private:
-    /// On the way to a file one row a polygon, with the mean of its corners; as text a row a corner.
-    void write(const std::vector<Corner>& polygon, const Part& part, std::uint32_t cell) {
+    static std::array<double, 4> weights_in(const CellCorners& vertices, const CellCut::Corner& corner) {
+        std::array<double, 4> weights{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            weights[k] += vertices[k] == corner.a ? 1 - corner.t : 0;
+            weights[k] += vertices[k] == corner.b ? corner.t : 0;
+        }
+        return weights;
+    }
+
+    /// Of each category; so that the cell need not be parted by its vertices.
+    [[nodiscard]] bool has_one_class(const CellCorners& vertices) const {
+        for (std::size_t p = 0; p < model_.properties.size(); ++p) {
+            const std::vector<double>& values = model_.vertex_values.values[p];
+            const bool mixed = std::ranges::any_of(vertices, [&](std::uint32_t v) {
+                return std::isnan(values[v]) != std::isnan(values[vertices[0]]) || values[v] < values[vertices[0]] ||
+                       values[v] > values[vertices[0]];
+            });
+            if (model_.properties[p].kind == Kind::categorical && mixed) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// In each property's scale: linear in the cell; of a category the owner's.
+    [[nodiscard]] std::vector<double> values_at(const Corner& corner, const CellCorners& vertices,
+                                                std::uint32_t owner) const {
+        std::vector<double> result;
+        for (std::size_t p = 0; p < model_.properties.size(); ++p) {
+            const Property& property = model_.properties[p];
+            const std::vector<double>& values = model_.vertex_values.values[p];
+            double value = property.kind == Kind::categorical ? values[owner] : 0;
+            for (std::size_t k = 0; k < 4 && property.kind != Kind::categorical; ++k) {
+                value += corner.weights[k] == 0 ? 0 : corner.weights[k] * to_scale(property, values[vertices[k]]);
+            }
+            result.push_back(value);
+        }
+        return result;
+    }
+
+    /// A row a polygon: its middle, and the mean of its corners.
+    void write(const Polygon& polygon, const Part& part, std::uint32_t cell, std::uint32_t owner) {
+        if (polygon.size() < 3) {
+            return;
+        }
         ++polygons_;
         const std::int32_t region = opened_.cells().region[cell];
         const RowCell name =
             region < 0 ? RowCell() : RowCell(opened_.cells().region_name[static_cast<std::size_t>(region)]);
-        Corner mean{{}, std::vector<double>(model_.properties.size(), 0)};
-        std::vector<Vec3> outline;
+        const CellCorners& vertices = opened_.mesh().cells[cell];
+        const double share = 1 / static_cast<double>(polygon.size());
+        Corner middle;
         for (const Corner& corner : polygon) {
-            outline.push_back(model_.frame.to_world(corner.place));
-            mean.place = mean.place + corner.place / static_cast<double>(polygon.size());
-            for (std::size_t p = 0; p < mean.values.size(); ++p) {
-                mean.values[p] += corner.values[p] / static_cast<double>(polygon.size());
+            middle.place = middle.place + share * corner.place;
+            for (std::size_t k = 0; k < 4; ++k) {
+                middle.weights[k] += share * corner.weights[k];
             }
         }
-        rows_.push_back(row_of(mean, part, name));
+        rows_.push_back(row_of(middle, values_at(middle, vertices, owner), part, name));
         Row& row = rows_.back();
         row.in_plan = part.in_plan;
-        for (std::size_t i = 0; i < outline.size(); ++i) {
-            const auto& [x, y, z] = outline[i];
-            row.flat.push_back(
-                {part.in_plan ? x : distance_of(polygon[i], part), part.in_plan ? y : z, polygon[i].values});
+        for (const Corner& corner : polygon) {
+            const Vec3 world = model_.frame.to_world(corner.place);
+            row.outline.push_back(world);
+            row.flat.push_back({part.in_plan ? world.x : distance_of(corner, part), part.in_plan ? world.y : world.z,
+                                values_at(corner, vertices, owner)});
         }
-        row.outline = std::move(outline);
     }
 
     [[nodiscard]] double distance_of(const Corner& corner, const Part& part) const {
         return part.before + dot(model_.frame.to_world_size(corner.place - part.start), part.direction);
     }
 
-    [[nodiscard]] Row row_of(const Corner& corner, const Part& part, const RowCell& region) const {
+    [[nodiscard]] Row row_of(const Corner& corner, const std::vector<double>& values, const Part& part,
+                             const RowCell& region) const {
         const Vec3 world = model_.frame.to_world(corner.place);
         Row row{{polygons_, distance_of(corner, part), world.x, world.y, world.z}, {}};
-        for (std::size_t p = 0; p < corner.values.size(); ++p) {
+        for (std::size_t p = 0; p < values.size(); ++p) {
             const Property& property = model_.properties[p];
-            row.cells.push_back(property.kind == Kind::categorical
-                                    ? value_cell(property, std::round(corner.values[p]))
-                                    : value_cell(property, from_scale(property, corner.values[p])));
+            row.cells.push_back(
+                value_cell(property, property.kind == Kind::categorical ? values[p] : from_scale(property, values[p])));
         }
         row.cells.push_back(region);
         return row;

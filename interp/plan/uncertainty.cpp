@@ -40,12 +40,26 @@ bool has_samples(const Model& model, std::size_t p) {
     return !std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
 }
 
+bool is_measured(const Model& model, const std::string& name) {
+    for (std::size_t p = 0; p < model.properties.size(); ++p) {
+        if (model.properties[p].name == name && has_samples(model, p)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::vector<Derived> all_derived(const Model& model, std::vector<PropertyEstimates>& estimates) {
     std::vector<Derived> derived;
     for (std::size_t p = 0; p < estimates.size(); ++p) {
         if (has_samples(model, p)) {
             auto of_property = derived_from(model.properties[p], estimates[p]);
             std::move(of_property.begin(), of_property.end(), std::back_inserter(derived));
+        }
+    }
+    for (Derived& one : derived) {
+        while (is_measured(model, one.property.name)) {
+            one.property.name += "_estimate";  // as query calls its columns then
         }
     }
     return derived;

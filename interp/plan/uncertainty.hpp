@@ -14,8 +14,8 @@ namespace terratet {
 ///   NAME_ci95           half-width of the interval about the value that holds 95 %, in the same
 ///   NAME_extrapolation  0…1
 ///   NAME_samples        how many samples have a weight
-/// and for a category instead of the first NAME_entropy (bits) and a NAME_p_CLASS for each class. Those that are there
-/// from an earlier call are replaced.
+/// and for a category instead of the first NAME_entropy (bits) and a NAME_p_CLASS for each class. A name that a
+/// measured property has gets "_estimate" behind it. Those that are there from an earlier call are replaced.
 /// \param estimator  of this model, with uncertainty prepared; not used afterwards: the model it reads has changed
 void add_uncertainty(Model& model, const ModelEstimator& estimator);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "io/base/gdal_dataset.hpp"
@@ -177,8 +179,13 @@ class StyleWriter {
 
     void write(const Presentation& layer) {
         run(contents_, {layer.title, layer.description, layer.layer});
+        std::set<std::string> titles;  // unique in a layer by the format's rule; a property may be called "Owner"
         for (const ColumnLabel& label : layer.columns) {
-            run(columns_, {layer.layer, label.column, label.title, label.description});
+            std::string title = label.title;
+            while (!titles.insert(title).second) {
+                title += " (" + label.column + ")";
+            }
+            run(columns_, {layer.layer, label.column, title, label.description});
         }
         bool first = true;
         for (const Style& style : layer.styles) {

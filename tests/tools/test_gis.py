@@ -110,6 +110,16 @@ class GisProduct(Case):
             self.assertEqual(xml.fromstring(qml).tag, "qgis")
             self.assertEqual(default, 1)
 
+    def test_properties_may_be_called_as_other_columns_are_titled(self):
+        names = ["Owner", "Vertex", "K", "K_sd", "Extrapolation"]
+        rows = [f"{i % 5 * 10 + i % 3},{i // 5 * 10},{i % 7}," + ",".join(str(i % (n + 3)) for n in range(5)) for i in range(30)]
+        self.write("s.csv", "x,y,z," + ",".join(names) + "\n" + "\n".join(rows) + "\n")
+        self.succeed("convert", "--samples", "s.csv", "-s_srs", "local", "--lmin", "8", "--uncertainty", "m.gpkg")
+        self.succeed("check", "m.gpkg")
+        titles = [row[0] for row in self.rows("SELECT name FROM gpkg_data_columns WHERE table_name = 'vertices'")]
+        self.assertEqual(len(set(titles)), len(titles))
+        self.assertTrue(set(names) <= {title.split(" (")[0] for title in titles}, titles)
+
     def test_boreholes_tell_length_azimuth_and_dip(self):
         self.build_twin()
         for blob, length, azimuth, dip in self.rows("SELECT geom, length, azimuth, dip FROM boreholes"):

@@ -37,7 +37,7 @@ class Mender {
         stars_.let_edges_count(false);
         const std::size_t changed = sweep(
             least, failed_shortening_,
-            [&](const MendableMesh::Cell& cell) { return cell.judged ? stars_.shortest_edge(cell) : least; },
+            [&](std::uint32_t c) { return stars_.cell(c).judged ? stars_.shortest_edge(stars_.cell(c)) : least; },
             [&](std::uint32_t c) { return best_shortening(stars_, c, may_have); });
         stars_.let_edges_count(true);
         return changed;
@@ -46,7 +46,7 @@ class Mender {
     std::size_t improve(MendingAim aim) {
         return sweep(
             enough, failed_improving_[aim == MendingAim::worst ? 0 : 1],
-            [&](const MendableMesh::Cell& cell) { return stars_.goodness(cell); },
+            [&](std::uint32_t c) { return stars_.goodness(c); },
             [&](std::uint32_t c) { return best_change(stars_, c, aim); });
     }
 
@@ -59,7 +59,7 @@ class Mender {
         for (std::uint32_t c = 0; c < stars_.mesh().cells.size(); ++c) {
             const MendableMesh::Cell& cell = stars_.cell(c);
             if (cell.touched && !MendableStars::gone(cell)) {
-                if (const double by = measure(cell); by < least) {
+                if (const double by = measure(c); by < least) {
                     bad.push_back({by, c});
                 }
             }
@@ -72,7 +72,7 @@ class Mender {
                 report_progress(progress_, "mend cells", 1 - std::ldexp(1 - 0.5 * done, -sweeps_));
             }
             const MendableMesh::Cell& cell = stars_.cell(bad[i].cell);
-            if (MendableStars::gone(cell) || measure(cell) >= least) {
+            if (MendableStars::gone(cell) || measure(bad[i].cell) >= least) {
                 continue;
             }
             failed.resize(stars_.mesh().cells.size(), never);
@@ -104,8 +104,9 @@ class Mender {
 
 void mend_cells(MendableMesh& mesh, const Progress& progress) {
     MendableStars stars(mesh);
-    for (MendableMesh::Cell& cell : mesh.cells) {
-        cell.touched |= cell.judged && stars.goodness(cell) < must_have;
+    for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
+        MendableMesh::Cell& cell = mesh.cells[c];
+        cell.touched |= cell.judged && stars.goodness(c) < must_have;
     }
     Mender mender(stars, progress);
     std::size_t changed = 1;

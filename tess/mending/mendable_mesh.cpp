@@ -3,6 +3,7 @@
 #include "tess/mending/mendable_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -116,8 +117,27 @@ std::array<Vec3, 4> MendableStars::points_of(const MendableMesh::Cell& cell) con
     return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
 }
 
-double MendableStars::goodness(const MendableMesh::Cell& cell) const {
-    return goodness(points_of(cell), cell.judged);
+double MendableStars::goodness(const MendableMesh::Cell& cell, double floor) const {
+    return goodness(points_of(cell), cell.judged, floor);
+}
+
+double MendableStars::goodness(std::uint32_t c) const {
+    std::vector<double>& known = known_[edges_count_ ? 1 : 0];
+    if (known.size() <= c) {
+        known.resize(mesh_.cells.size(), std::numeric_limits<double>::quiet_NaN());
+    }
+    if (std::isnan(known[c])) {
+        known[c] = goodness(cell(c));
+    }
+    return known[c];
+}
+
+void MendableStars::forget(std::uint32_t c) {
+    for (std::vector<double>& known : known_) {
+        if (c < known.size()) {
+            known[c] = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
 }
 
 double MendableStars::shortest_edge(const MendableMesh::Cell& cell) const {
@@ -128,17 +148,17 @@ double MendableStars::shortest_edge(const MendableMesh::Cell& cell) const {
     return shortest;
 }
 
-double MendableStars::goodness_with(const MendableMesh::Cell& of, std::uint32_t v, const Vec3& at) const {
+double MendableStars::goodness_with(const MendableMesh::Cell& of, std::uint32_t v, const Vec3& at, double floor) const {
     std::array<Vec3, 4> points = points_of(of);
     points[static_cast<std::size_t>(std::ranges::find(of.corners, v) - of.corners.begin())] = at;
-    return goodness(points, of.judged);
+    return goodness(points, of.judged, floor);
 }
 
 bool MendableStars::changed_round(const MendableMesh::Cell& of, std::uint32_t since) const {
     return std::ranges::any_of(of.corners, [&](std::uint32_t v) { return changed_[v] > since; });
 }
 
-double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged) const {
+double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged, double floor) const {
     const double six_volumes = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
     double longest = 0;
     double shortest = std::numeric_limits<double>::infinity();
@@ -154,9 +174,13 @@ double MendableStars::goodness(const std::array<Vec3, 4>& p, bool judged) const 
     if (!judged) {
         return six_volumes > least_flat * cube ? 1 : 0;
     }
-    const double sharp = cell_sharpness(p);
+    const double most = edges_count_ ? std::min(1.0, shortest / (mesh_.least_edge * mesh_.least_edge)) : 1;
+    if (most <= floor) {
+        return most;
+    }
+    const double sharp = cell_sharpness(p, -1, 1 - floor / most);
     const double angle = sharp > 0 ? std::max(1 - sharp, sharpest) : 1;
-    return edges_count_ ? angle * std::min(1.0, shortest / (mesh_.least_edge * mesh_.least_edge)) : angle;
+    return angle * most;
 }
 
 void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const MendableMesh::Cell> fresh) {
@@ -167,6 +191,7 @@ void MendableStars::apply(std::span<const std::uint32_t> old, std::span<const Me
             std::erase(star_[v], c);
         }
         mesh_.cells[c].corners = {};
+        forget(c);
     }
     for (std::size_t i = 0; i < fresh.size(); ++i) {
         const auto c = i < old.size() ? old[i] : static_cast<std::uint32_t>(mesh_.cells.size());
@@ -188,6 +213,7 @@ void MendableStars::move(std::uint32_t v, const Vec3& to) {
     ++now_;
     for (const std::uint32_t c : star_[v]) {
         mesh_.cells[c].touched = true;
+        forget(c);
         for (const std::uint32_t corner : cell(c).corners) {
             changed_[corner] = now_;
         }

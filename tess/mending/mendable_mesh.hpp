@@ -85,19 +85,23 @@ class MendableStars {
     /// The square of the sine of the smallest dihedral angle (1 from a right angle on), less where an edge is too
     /// short, if edges count; 0 without volume but for rounding, −1 when turned inside out. Of a cell that is not
     /// judged: 1 with a volume.
-    [[nodiscard]] double goodness(const MendableMesh::Cell& cell) const;
+    ///
+    /// \param floor  what is not above it need not be exact, but at most it; then less has to be looked at
+    [[nodiscard]] double goodness(const MendableMesh::Cell& cell, double floor = -2) const;
+    /// Of one of the mesh's cells, computed once for each change of it.
+    [[nodiscard]] double goodness(std::uint32_t c) const;
     void let_edges_count(bool count) { edges_count_ = count; }
 
     /// Of a cell, squared.
     [[nodiscard]] double shortest_edge(const MendableMesh::Cell& cell) const;
 
     /// Of these cells if v were elsewhere, as each cell's goodness is added to it; minus infinity when it falls to
-    /// `floor` or a cell would have no volume.
+    /// `floor` or a cell would have no volume. \param cell_floor  of each cell's own goodness, as for goodness()
     template <class Add>
     [[nodiscard]] double score_with(std::span<const std::uint32_t> cells, std::uint32_t v, const Vec3& at, double score,
-                                    double floor, const Add& add) const {
+                                    double floor, double cell_floor, const Add& add) const {
         for (const std::uint32_t c : cells) {
-            const double there = goodness_with(cell(c), v, at);
+            const double there = goodness_with(cell(c), v, at, cell_floor);
             score = add(score, there);
             if (!(there > 0 && score > floor)) {
                 return -std::numeric_limits<double>::infinity();
@@ -116,8 +120,10 @@ class MendableStars {
     void move(std::uint32_t v, const Vec3& to);
 
   private:
-    [[nodiscard]] double goodness_with(const MendableMesh::Cell& cell, std::uint32_t v, const Vec3& at) const;
-    [[nodiscard]] double goodness(const std::array<Vec3, 4>& points, bool judged) const;
+    [[nodiscard]] double goodness_with(const MendableMesh::Cell& cell, std::uint32_t v, const Vec3& at,
+                                       double floor) const;
+    [[nodiscard]] double goodness(const std::array<Vec3, 4>& points, bool judged, double floor) const;
+    void forget(std::uint32_t c);
     [[nodiscard]] std::array<Vec3, 4> points_of(const MendableMesh::Cell& cell) const;
 
     MendableMesh& mesh_;
@@ -129,6 +135,7 @@ class MendableStars {
     std::vector<std::int8_t> on_kept_;     ///< −1: not known yet
     std::vector<std::uint32_t> changed_;   ///< of points: when a cell there was last
     std::uint32_t now_ = 0;
+    mutable std::array<std::vector<double>, 2> known_;  ///< goodness of cells, with edges or without; NaN: not yet
 };
 
 }  // namespace terratet

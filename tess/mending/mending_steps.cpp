@@ -37,7 +37,7 @@ class Search {
     std::optional<MendingStep> run(MendingAim aim) {
         const Corners v = stars_.cell(cell_).corners;
         aim_ = aim;
-        least_ = least_gain * burden(stars_.goodness(stars_.cell(cell_)));
+        least_ = least_gain * burden(stars_.goodness(cell_));
         for (const auto& [i, j] : cell_edges) {
             contract(v[i], v[j]);
             contract(v[j], v[i]);
@@ -74,7 +74,7 @@ class Search {
     [[nodiscard]] double score_of(const std::vector<std::uint32_t>& cells) const {
         double score = start();
         for (const std::uint32_t c : cells) {
-            score = add(score, stars_.goodness(stars_.cell(c)));
+            score = add(score, stars_.goodness(c));
         }
         return score;
     }
@@ -88,6 +88,8 @@ class Search {
         const double least = shortening_ ? std::nextafter(std::min(before, enough_), -2.0) : better * before;
         return best_ ? std::max(least, best_->by) : least;
     }
+    /// What a cell alone must exceed where the score is the worst cell's.
+    [[nodiscard]] double cell_floor(double floor) const { return aim_ == MendingAim::worst ? floor : -2; }
     [[nodiscard]] double ranked(double before, double after) const {
         return aim_ == MendingAim::together ? after - before : after;
     }
@@ -98,7 +100,7 @@ class Search {
         const double least = floor(before);
         double after = start();
         for (const Cell& cell : change.fresh) {
-            const double there = stars_.goodness(cell);
+            const double there = stars_.goodness(cell, cell_floor(least));
             after = add(after, there);
             if (after <= least || there < 0 || (there == 0 && aim_ == MendingAim::together)) {
                 return;
@@ -350,6 +352,8 @@ class Search {
             directions.push_back(along);
             directions.push_back(-along);
         }
+        // First those that most places fail at.
+        std::ranges::stable_sort(change.old, {}, [&](std::uint32_t c) { return stars_.goodness(c); });
         const double before = score_of(change.old);
         double score = before;
         Vec3 at = start_place;
@@ -357,7 +361,7 @@ class Search {
             for (const Vec3& direction : directions) {
                 const Vec3 to = at + step * direction;
                 const double there =
-                    stars_.score_with(change.old, v, to, start(), score,
+                    stars_.score_with(change.old, v, to, start(), score, cell_floor(score),
                                       [this](double so_far, double goodness) { return add(so_far, goodness); });
                 if (there > score) {
                     score = there;

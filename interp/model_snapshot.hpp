@@ -41,7 +41,7 @@ class ModelSnapshot {
     [[nodiscard]] bool is_delaunay() const;
 
     /// Its faults without width, or its bounds alone (tess/collapse.hpp). Throws Error when the result fails its check.
-    [[nodiscard]] const CollapsedModel& collapsed(Collapsing which) const;
+    [[nodiscard]] const CollapsedModel& collapsed(Collapsing which, const Progress& progress = {}) const;
 
     /// The model's own estimator, for values; the other also knows how far its errors go, for which boreholes are left
     /// out where the model does not say yet: seconds.

@@ -21,6 +21,7 @@
 /// result.
 
 #include "tess/collapsed_model.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -30,9 +31,10 @@ enum class Collapsing {
 };
 
 /// What lies above the ground and outside the outline is not in the result. `mesh` and `cells` are the model's own. O(n
-/// log n); as many passes as there are rounds of giving up, few.
+/// log n); as many passes as there are rounds of giving up, few. Progress goes by the stages `collapse faults` and
+/// `mend cells`.
 CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
-                               Collapsing which = Collapsing::all);
+                               Collapsing which = Collapsing::all, const Progress& progress = {});
 
 /// Is there a topography, or a domain's wall, to end at?
 bool has_bounds(const Model& model);

@@ -15,8 +15,9 @@
 namespace terratet {
 namespace {
 
-CollapsedModel collapse_checked(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
-    CollapsedModel result = collapse_faults(model, mesh, cells, which);
+CollapsedModel collapse_checked(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which,
+                                const Progress& progress) {
+    CollapsedModel result = collapse_faults(model, mesh, cells, which, progress);
     const Conformity& c = result.report.conformity;
     if (!c.proper()) {
         const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
@@ -165,13 +166,13 @@ bool ModelSnapshot::is_delaunay() const {
     return *impl_->delaunay;
 }
 
-const CollapsedModel& ModelSnapshot::collapsed(Collapsing which) const {
+const CollapsedModel& ModelSnapshot::collapsed(Collapsing which, const Progress& progress) const {
     const std::lock_guard lock(impl_->mutex);
     auto& result = impl_->collapsed[which == Collapsing::all ? 0 : 1];
     if (!result) {
         const CellTable& cells = impl_->cells();
-        result =
-            std::make_unique<CollapsedModel>(collapse_checked(impl_->made->model, impl_->made->mesh, cells, which));
+        result = std::make_unique<CollapsedModel>(
+            collapse_checked(impl_->made->model, impl_->made->mesh, cells, which, progress));
     }
     return *result;
 }

@@ -117,7 +117,7 @@ ModelView view_of(const ModelSnapshot& model, const Format& format, const Export
         estimator = has_derived_properties(model.model()) ? &model.estimator_with_errors() : &model.estimator();
     }
     if (const auto which = collapsing(model.model(), format.name, options)) {
-        const CollapsedModel& collapsed = model.collapsed(*which);
+        const CollapsedModel& collapsed = model.collapsed(*which, options.progress);
         return {collapsed.model, collapsed.mesh, collapsed.cells, estimator};
     }
     return {model.model(), model.mesh(), model.cells(), estimator};

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tess/barrier/query/model_bounds.hpp"
+#include "tess/base/poll.hpp"
 #include "tess/collapse/collapse_image.hpp"
 #include "tess/collapse/collapse_mending.hpp"
 #include "tess/collapse/node_splitter.hpp"
@@ -22,9 +23,11 @@ constexpr double close_to_wall = 0.1;  ///< over the spacing
 
 /// Joins what can be joined: where a cell would lose its volume, its seeds give up, until none does. Every round takes
 /// something back for good, so it ends.
-CollapseImage collapsed_image(const TetMesh& mesh, std::vector<FaultNode>& nodes) {
+CollapseImage collapsed_image(const TetMesh& mesh, std::vector<FaultNode>& nodes, const Poll& poll) {
     for (;;) {
+        ask(poll);
         CollapseImage image(mesh, nodes);
+        ask(poll);
         image.remove_flat_cells();
         const std::vector<std::uint32_t> culprits = image.culprits();
         if (culprits.empty()) {
@@ -46,11 +49,13 @@ bool is_beyond(std::int32_t gap, const Vec3& p, const BarrierQuery& barriers, co
 }
 
 CellStates cell_states(const Model& model, const CellTable& before, const std::vector<char>& selected,
-                       const CollapseImage& image) {
+                       const CollapseImage& image, const Poll& poll) {
     const BarrierQuery barriers(model.barriers);
+    PatientPoll go_on(poll);
     const Outline outline(model.domain.outline);
     CellStates states;
     for (const Cell& cell : image.cells()) {
+        go_on();
         Vec3 sum;
         for (const Corner& corner : cell.corners) {
             sum = sum + image.position(corner.node);
@@ -200,17 +205,29 @@ bool has_bounds(const Model& model) {
     return std::ranges::any_of(model.barriers, [](const Barrier& barrier) { return is_bound(barrier.sheet.kind); });
 }
 
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which,
+                               const Progress& progress) {
+    double done = 0;
+    const Poll poll = [&] { report_progress(progress, "collapse faults", done); };
+    const auto reached = [&](double share) {
+        done = share;
+        poll();
+    };
+    reached(0);
     std::vector<char> selected;
     for (const Barrier& barrier : model.barriers) {
         selected.push_back(which == Collapsing::all || is_bound(barrier.sheet.kind) ? 1 : 0);
     }
-    std::vector<FaultNode> nodes = fault_nodes(model, mesh, selected);
-    CollapseImage image = collapsed_image(mesh, nodes);
+    std::vector<FaultNode> nodes = fault_nodes(model, mesh, selected, poll);
+    reached(0.2);
+    CollapseImage image = collapsed_image(mesh, nodes, poll);
+    reached(0.4);
     const bool exact = model.barrier_options.mode == SeedMode::exact;
-    const std::vector<Vec3> uncut = exact ? image.cut_edges(model, selected) : std::vector<Vec3>{};
-    CellStates states = cell_states(model, cells, selected, image);
-    SplitImage split = split_nodes(model, selected, image, nodes, states);
+    const std::vector<Vec3> uncut = exact ? image.cut_edges(model, selected, poll) : std::vector<Vec3>{};
+    reached(0.6);
+    CellStates states = cell_states(model, cells, selected, image, poll);
+    SplitImage split = split_nodes(model, selected, image, nodes, states, poll);
+    reached(0.9);
 
     CollapsedModel result{model, {}, {}, {}};
     fill_vertices(model, image, split.parts, result);
@@ -219,7 +236,8 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     result.cells.region = std::move(split.regions);
     fill_cells(cells, image, std::move(states), result);
     if (std::ranges::any_of(cells.barrier, [](std::int32_t barrier) { return barrier >= 0; })) {
-        mend_collapsed(result);  // else nothing was cut
+        reached(1);
+        mend_collapsed(result, progress);  // else nothing was cut
     }
 
     CollapseReport& report = result.report;

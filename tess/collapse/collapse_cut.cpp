@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tess/barrier/query/sheet_crossings.hpp"
+#include "tess/base/poll.hpp"
 #include "tess/base/tetrahedron.hpp"
 #include "tess/collapse/collapse_image.hpp"
 
@@ -35,9 +36,11 @@ class CollapseImage::Cutter {
         find_faults();
     }
 
-    std::vector<Vec3> run() {
+    std::vector<Vec3> run(const Poll& poll) {
+        PatientPoll go_on(poll);
         const std::size_t most = max_growth * open_.size();
         for (std::size_t next = 0; next < open_.size(); ++next) {
+            go_on();
             const Edge edge = open_[next];
             if (!exists(edge)) {
                 continue;
@@ -278,8 +281,8 @@ class CollapseImage::Cutter {
     std::vector<Vec3> left_;
 };
 
-std::vector<Vec3> CollapseImage::cut_edges(const Model& model, const std::vector<char>& selected) {
-    return Cutter(*this, model, selected).run();
+std::vector<Vec3> CollapseImage::cut_edges(const Model& model, const std::vector<char>& selected, const Poll& poll) {
+    return Cutter(*this, model, selected).run(poll);
 }
 
 }  // namespace terratet

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tess/collapse/collapse_nodes.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -41,7 +42,7 @@ class CollapseImage {
     /// Edges between seeds that a fault parts get a node where it crosses them, as do the new ones that then cross
     /// another. Returns the crossings that are left: where a cut would leave a cell without volume, or one cut leads to
     /// the next without end.
-    std::vector<Vec3> cut_edges(const Model& model, const std::vector<char>& selected);
+    std::vector<Vec3> cut_edges(const Model& model, const std::vector<char>& selected, const Poll& poll = {});
 
     /// Barrier nodes to retreat for the cells to keep a volume, ascending; none when all is well.
     [[nodiscard]] std::vector<std::uint32_t> culprits() const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "tess/base/poll.hpp"
 #include "tess/collapse/facet_neighbours.hpp"
 #include "tess/mending/blend.hpp"
 #include "tess/mending/mend_cells.hpp"
@@ -65,7 +66,9 @@ MendableMesh cut_mesh(const CollapsedModel& collapsed) {
 }
 
 /// \param near of each point, a cell of the mesh before
-void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& near, CollapsedModel& collapsed) {
+void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& near, const Poll& poll,
+                 CollapsedModel& collapsed) {
+    PatientPoll go_on(poll);
     Model& model = collapsed.model;
     std::uint64_t next_id = 0;
     for (const Vertex& vertex : model.vertices) {
@@ -74,6 +77,7 @@ void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& n
     const OwnSideField field(collapsed.mesh, collapsed.cells.barrier, model);
     const VertexValues before = model.vertex_values;
     for (std::size_t v = 0; v < mended.points.size(); ++v) {
+        go_on();
         if (mended.moved[v] == 0 || near[v] == MendableStars::none) {
             continue;
         }
@@ -140,9 +144,11 @@ void take_cells(const std::vector<MendableMesh::Cell>& cells, const std::vector<
 
 }  // namespace
 
-void mend_collapsed(CollapsedModel& collapsed) {
+void mend_collapsed(CollapsedModel& collapsed, const Progress& progress) {
     MendableMesh mended = cut_mesh(collapsed);
-    mend_cells(mended);
+    mend_cells(mended, progress);
+    const Poll poll = [&] { report_progress(progress, "mend cells", 1); };
+    poll();
     std::erase_if(mended.cells, [](const MendableMesh::Cell& cell) { return MendableStars::gone(cell); });
     std::ranges::stable_sort(mended.cells, {}, &MendableMesh::Cell::parent);
     std::vector<std::uint32_t> near(mended.points.size(), MendableStars::none);
@@ -151,7 +157,8 @@ void mend_collapsed(CollapsedModel& collapsed) {
             near[v] = std::min(near[v], cell.parent);
         }
     }
-    take_points(mended, near, collapsed);
+    take_points(mended, near, poll, collapsed);
+    poll();
     take_cells(mended.cells, mended.walls, collapsed);
 }
 

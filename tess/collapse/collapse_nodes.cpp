@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tess/barrier/query/pair_way.hpp"
+#include "tess/base/poll.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/tetrahedron.hpp"
 #include "tess/mesh/quality.hpp"
@@ -79,7 +80,8 @@ class OwnVertices {
 
 /// Each mirrored pair in the vertex it belongs to, or halfway between its seeds; pairs about a junction's point in that
 /// point.
-std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>& selected) {
+std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>& selected, const Poll& poll) {
+    PatientPoll go_on(poll);
     std::map<std::pair<std::int32_t, Vec3>, std::uint32_t> vertex_at;
     for (std::uint32_t v = 0; v < model.vertices.size(); ++v) {
         if (model.vertices[v].role == Role::seed) {
@@ -105,6 +107,7 @@ std::vector<FaultNode> meeting_seeds(const Model& model, const std::vector<char>
         const Barrier& barrier = model.barriers[f];
         const OwnVertices own(barrier, own_reach_at);
         for (std::size_t k = 0; k + 1 < barrier.seeds.size(); k += 2) {
+            go_on();
             const auto plus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k].position});
             const auto minus = vertex_at.find({static_cast<std::int32_t>(f), barrier.seeds[k + 1].position});
             if (plus == vertex_at.end() || minus == vertex_at.end()) {
@@ -171,10 +174,12 @@ class VertexFinder {
         grid_.emplace(places, reach * spacing);
     }
 
-    std::vector<FaultNode> run() const {
+    std::vector<FaultNode> run(const Poll& poll) const {
+        PatientPoll go_on(poll);
         std::vector<FaultNode> nodes;
         std::vector<FaultNode> others;
         for (const auto& [p, barriers] : faults_at_) {
+            go_on();
             FaultNode node{p, {}, {barriers.begin(), barriers.end()}, {}};
             node.cells = cells_at_one_distance(p);
             if (!node.cells.empty() && unseen_facets(node).empty()) {
@@ -275,9 +280,10 @@ bool FaultNode::retreat() {
     return true;
 }
 
-std::vector<FaultNode> fault_nodes(const Model& model, const TetMesh& mesh, const std::vector<char>& selected) {
-    return model.barrier_options.mode == SeedMode::exact ? VertexFinder(model, mesh, selected).run()
-                                                         : meeting_seeds(model, selected);
+std::vector<FaultNode> fault_nodes(const Model& model, const TetMesh& mesh, const std::vector<char>& selected,
+                                   const Poll& poll) {
+    return model.barrier_options.mode == SeedMode::exact ? VertexFinder(model, mesh, selected).run(poll)
+                                                         : meeting_seeds(model, selected, poll);
 }
 
 }  // namespace terratet

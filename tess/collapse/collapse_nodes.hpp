@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tess/model.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -39,6 +40,7 @@ struct FaultNode {
 /// distance, so that they are vertices of the Voronoi diagram: their cells are those between these seeds. Then the
 /// others: cells between seeds with the vertex in their circumsphere. Only cells that it sees from within count. O(n
 /// log n).
-std::vector<FaultNode> fault_nodes(const Model& model, const TetMesh& mesh, const std::vector<char>& selected);
+std::vector<FaultNode> fault_nodes(const Model& model, const TetMesh& mesh, const std::vector<char>& selected,
+                                   const Poll& poll = {});
 
 }  // namespace terratet

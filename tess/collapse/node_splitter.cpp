@@ -9,6 +9,7 @@
 
 #include "tess/barrier_query.hpp"
 #include "tess/base/box_clip.hpp"
+#include "tess/base/poll.hpp"
 #include "tess/base/tetrahedron.hpp"
 #include "tess/collapse/facet_neighbours.hpp"
 
@@ -33,12 +34,13 @@ double area(const std::vector<Vec3>& polygon) {
 class NodeSplitter {
   public:
     NodeSplitter(const Model& model, const std::vector<char>& selected, const CollapseImage& image,
-                 std::span<const FaultNode> nodes, const CellStates& states)
+                 std::span<const FaultNode> nodes, const CellStates& states, const Poll& poll)
         : model_(model),
           selected_(selected),
           image_(image),
           nodes_(nodes),
           states_(states),
+          poll_(poll),
           proximity_(model.barriers),
           region_(states.region) {
         for (const Cell& cell : image.cells()) {
@@ -112,7 +114,9 @@ class NodeSplitter {
         for (const Barrier& barrier : model_.barriers) {
             boxes.push_back(bounding_box(barrier.sheet.vertices).grown(on_surface * barrier.spacing));
         }
+        PatientPoll go_on(poll_);
         for (std::uint32_t n = 0; n < image_.node_count(); ++n) {
+            go_on();
             const auto at = image_.fault_nodes_at(n);
             faults_at_[n] = image_.faults_on(n);
             base_[n] = at.size() == 1 ? nodes_[at[0]].base : image_.position(n);
@@ -150,7 +154,9 @@ class NodeSplitter {
     /// cells of the same side: on the sheet, or on the margin.
     template <class Visit>
     void for_each_divider(Visit&& visit) const {
+        PatientPoll go_on(poll_);
         for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            go_on();
             for (std::size_t k = 0; k < 4; ++k) {
                 if (neighbours_[c][k] <= static_cast<std::int32_t>(c)) {
                     continue;
@@ -275,7 +281,9 @@ class NodeSplitter {
             }
         }
         const auto image_cells = cells_;
+        PatientPoll go_on(poll_);
         for (std::uint32_t node = 0; node < touched.size(); ++node) {
+            go_on();
             if (star[node].empty()) {
                 continue;
             }
@@ -380,6 +388,7 @@ class NodeSplitter {
     const CollapseImage& image_;
     std::span<const FaultNode> nodes_;
     const CellStates& states_;
+    const Poll& poll_;
     BarrierQuery proximity_;
     std::vector<std::int32_t> region_;
     std::vector<std::array<std::uint32_t, 4>> cells_;  ///< over the image's nodes, then over parts
@@ -396,8 +405,8 @@ class NodeSplitter {
 }  // namespace
 
 SplitImage split_nodes(const Model& model, const std::vector<char>& selected, const CollapseImage& image,
-                       std::span<const FaultNode> nodes, const CellStates& states) {
-    NodeSplitter splitter(model, selected, image, nodes, states);
+                       std::span<const FaultNode> nodes, const CellStates& states, const Poll& poll) {
+    NodeSplitter splitter(model, selected, image, nodes, states, poll);
     splitter.run();
     return {splitter.parts(),        splitter.regions(),    splitter.cells(),          splitter.neighbours(),
             splitter.split_places(), splitter.split_area(), splitter.off_barriers_of()};

@@ -10,6 +10,7 @@
 
 #include "tess/collapse/collapse_image.hpp"
 #include "tess/model.hpp"
+#include "tess/progress.hpp"
 
 namespace terratet {
 
@@ -42,6 +43,6 @@ struct SplitImage {
 /// Facets on the surfaces of the selected faults, between cells of their two sides, part the cells round each node.
 /// `nodes` are the image's.
 SplitImage split_nodes(const Model& model, const std::vector<char>& selected, const CollapseImage& image,
-                       std::span<const FaultNode> nodes, const CellStates& states);
+                       std::span<const FaultNode> nodes, const CellStates& states, const Poll& poll = {});
 
 }  // namespace terratet

@@ -7,6 +7,7 @@
 
 #include "tess/voronoi/clip_complex.hpp"
 #include "tess/voronoi/voronoi_dual.hpp"
+#include "tess/voronoi/voronoi_measures.hpp"
 
 namespace terratet {
 namespace {
@@ -121,20 +122,27 @@ class CellFinder {
         return unknown;
     }
 
-    /// A cell of a vertex outside the extent is of the region that it hangs together with.
+    /// A cell of a vertex outside the extent is of the region that it hangs together with: of several, that which the
+    /// fewest walls are between.
     void spread_regions() {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t w = 0; w < found_.barrier.size(); ++w) {
+        const WallsOfCells walls = walls_of_cells(found_.complex, found_.region.size());
+        std::vector<std::uint32_t> open;
+        for (std::uint32_t cell = 0; cell < found_.region.size(); ++cell) {
+            if (found_.region[cell] >= 0) {
+                open.push_back(cell);
+            }
+        }
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            for (const std::uint32_t w : walls.of(open[i])) {
                 const VoronoiWall& wall = found_.complex.walls[w];
                 if (wall.beyond < 0 || found_.barrier[w] >= 0) {
                     continue;
                 }
-                std::int32_t& one = found_.region[wall.cell];
-                std::int32_t& other = found_.region[static_cast<std::size_t>(wall.beyond)];
-                if ((one < 0) != (other < 0)) {
-                    one = other = std::max(one, other);
-                    changed = true;
+                const auto beyond = static_cast<std::uint32_t>(wall.beyond);
+                const std::uint32_t next = wall.cell == open[i] ? beyond : wall.cell;
+                if (found_.region[next] < 0) {
+                    found_.region[next] = found_.region[open[i]];
+                    open.push_back(next);
                 }
             }
         }

@@ -29,8 +29,9 @@ void insert(Tessellation* self, std::span<const Vertex> vertices, const Poll& po
 Tessellation tessellate(const Model& model) asm("__real__ZN8terratet10tessellateERKNS_5ModelE");
 CellTable describe_cells(const Model& model, const TetMesh& mesh, const BarrierQuery& barriers) asm(
     "__real__ZN8terratet14describe_cellsERKNS_5ModelERKNS_7TetMeshERKNS_12BarrierQueryE");
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) asm(
-    "__real__ZN8terratet15collapse_faultsERKNS_5ModelERKNS_7TetMeshERKNS_9CellTableENS_10CollapsingE");
+CollapsedModel collapse_faults(const Model&, const TetMesh&, const CellTable&, Collapsing, const Progress&) asm(
+    "__real__ZN8terratet15collapse_faultsERKNS_5ModelERKNS_7TetMeshERKNS_9CellTableENS_"
+    "10CollapsingERKSt8functionIFbSt17basic_string_viewIcSt11char_traitsIcEEdEE");
 
 }  // namespace terratet::real
 
@@ -56,11 +57,13 @@ CellTable describe_cells(const Model& model, const TetMesh& mesh, const BarrierQ
     return real::describe_cells(model, mesh, barriers);
 }
 
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) asm(
-    "__wrap__ZN8terratet15collapse_faultsERKNS_5ModelERKNS_7TetMeshERKNS_9CellTableENS_10CollapsingE");
-CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which) {
+CollapsedModel collapse_faults(const Model&, const TetMesh&, const CellTable&, Collapsing, const Progress&) asm(
+    "__wrap__ZN8terratet15collapse_faultsERKNS_5ModelERKNS_7TetMeshERKNS_9CellTableENS_"
+    "10CollapsingERKSt8functionIFbSt17basic_string_viewIcSt11char_traitsIcEEdEE");
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which,
+                               const Progress& progress) {
     ++counts.collapsed;
-    return real::collapse_faults(model, mesh, cells, which);
+    return real::collapse_faults(model, mesh, cells, which, progress);
 }
 
 }  // namespace terratet::wrap

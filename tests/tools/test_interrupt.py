@@ -51,6 +51,13 @@ class Interrupt(Case):
         self.assertEqual(lines, ["terratet: interrupted; nothing was written\n"])
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_so_it_is_while_faults_lose_their_width(self):
+        self.succeed("build", *twin_inputs(), "--fault-mode", "exact", "-o", "m.gpkg")
+        for stage in ("collapse faults", "mend cells"):
+            code, lines = self.interrupt_at(stage, "export", "--fault-gap", "collapse", "m.gpkg", "m.vtu")
+            self.assertEqual((code, lines), (1, ["terratet: interrupted; nothing was written\n"]), stage)
+            self.assertEqual(os.listdir(self.folder), ["m.gpkg"])
+
     def stop_after(self, seconds, *arguments):
         """Sends SIGTERM then; returns how long the program took to end, by the clock and of a processor, and whether
         it was interrupted; None when it had ended before."""

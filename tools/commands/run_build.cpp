@@ -62,6 +62,10 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
             static_cast<void>(record.model->is_delaunay());  // before the tessellation goes
         }
         record.model->release_memory();
+        if (!a.run.report.empty()) {
+            static_cast<void>(
+                record.model->collapsed(Collapsing::all, progress));  // its blocks' volumes; may take long
+        }
         const Stopwatch writing;
         record.written =
             write_outputs(*record.model, a.outputs, a.exporting, a.run, journal_entry(command, given), progress);

@@ -142,6 +142,20 @@ void fill_cells(const CellTable& before, const CollapseImage& image, CellStates 
     table.region_name = before.region_name;
 }
 
+/// Seeds of exact faults without width stand beside these; nodes of cuts may slide along them. By part.
+std::vector<char> loose_nodes(const Model& model, const std::vector<char>& selected, const CollapseImage& image,
+                              const std::vector<NodePart>& parts) {
+    std::vector<char> loose;
+    for (const NodePart& part : parts) {
+        const bool free = std::ranges::all_of(part.vertices, [&](std::uint32_t v) {
+            return model.vertices[v].role == Role::seed &&
+                   selected[static_cast<std::size_t>(model.vertices[v].owner)] != 0;
+        });
+        loose.push_back(free && image.fault_nodes_at(part.node).empty() ? 1 : 0);
+    }
+    return loose;
+}
+
 template <class T>
 void keep(std::vector<T>& column, const std::vector<char>& kept) {
     std::size_t next = 0;
@@ -237,7 +251,9 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     fill_cells(cells, image, std::move(states), result);
     if (std::ranges::any_of(cells.barrier, [](std::int32_t barrier) { return barrier >= 0; })) {
         reached(1);
-        mend_collapsed(result, progress);  // else nothing was cut
+        mend_collapsed(
+            result, exact ? loose_nodes(model, selected, image, split.parts) : std::vector<char>(split.parts.size(), 0),
+            progress);  // else nothing was cut
     }
 
     CollapseReport& report = result.report;

@@ -18,10 +18,11 @@ namespace {
 constexpr double wanted_edge = 0.3;  ///< over l_min
 constexpr std::int32_t beyond = -2;
 
-std::vector<MendableMesh::Hold> holds(const CollapsedModel& collapsed) {
+std::vector<MendableMesh::Hold> holds(const CollapsedModel& collapsed, std::span<const char> loose) {
     std::vector<MendableMesh::Hold> result;
-    for (const Vertex& vertex : collapsed.model.vertices) {
-        const bool stays = vertex.role == Role::sample || vertex.role == Role::seed;
+    for (std::size_t v = 0; v < loose.size(); ++v) {
+        const Role role = collapsed.model.vertices[v].role;
+        const bool stays = role == Role::sample || (role == Role::seed && loose[v] == 0);
         result.push_back(stays ? MendableMesh::Hold::fixed : MendableMesh::Hold::free);
     }
     return result;
@@ -48,13 +49,13 @@ std::vector<Triangle> shared_facets(const TetMesh& mesh) {
     return result;
 }
 
-MendableMesh cut_mesh(const CollapsedModel& collapsed) {
+MendableMesh cut_mesh(const CollapsedModel& collapsed, std::span<const char> loose) {
     MendableMesh result;
     result.walls = shared_facets(collapsed.mesh);
     result.box = collapsed.model.domain.hull;
     result.least_edge = wanted_edge * collapsed.model.criteria.l_min;
     result.points = collapsed.mesh.points;
-    result.hold = holds(collapsed);
+    result.hold = holds(collapsed, loose);
     const CellTable& table = collapsed.cells;
     for (std::uint32_t c = 0; c < collapsed.mesh.cells.size(); ++c) {
         const bool is_beyond = table.beyond[c] != 0;
@@ -144,8 +145,8 @@ void take_cells(const std::vector<MendableMesh::Cell>& cells, const std::vector<
 
 }  // namespace
 
-void mend_collapsed(CollapsedModel& collapsed, const Progress& progress) {
-    MendableMesh mended = cut_mesh(collapsed);
+void mend_collapsed(CollapsedModel& collapsed, std::span<const char> loose, const Progress& progress) {
+    MendableMesh mended = cut_mesh(collapsed, loose);
     mend_cells(mended, progress);
     const Poll poll = [&] { report_progress(progress, "mend cells", 1); };
     poll();

@@ -87,7 +87,9 @@ Box3 padded(const Box3& data, const BuildOptions& options, const Criteria& crite
         return data.grown(options.pad);
     }
     const double height = data.size().z > 1e-6 * data.diagonal() ? data.size().z / 4 : criteria.l_max;
-    const Vec3 margin{criteria.l_max, criteria.l_max, std::clamp(height, criteria.l_min, criteria.l_max)};
+    const double width = data.diagonal() > 0 ? std::max(data.diagonal() / 2, criteria.l_min) : criteria.l_max;
+    const double aside = std::min(criteria.l_max, width);  // else a longer l_max would make more cells, of padding
+    const Vec3 margin{aside, aside, std::clamp(height, criteria.l_min, criteria.l_max)};
     return {data.lo - margin, data.hi + margin};
 }
 

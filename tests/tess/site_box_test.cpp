@@ -124,6 +124,13 @@ TEST_CASE("The extent is padded by l_max in plan, vertically by a quarter of the
     CHECK(vertical(2000) == 200);
     CHECK(vertical(120) == 50);
     CHECK(vertical(0) == 200);
+    const Site small = site_of({{0, 0, -40}, {300, 400, 0}, {50, 30, -20}});
+    for (const double l_max : {400.0, 5000.0}) {  // half the data's diagonal is enough: the rest would be padding
+        options.criteria.l_max = l_max;
+        built(small, options, model);
+        CHECK(model.domain.extent.lo.x == Approx(-std::hypot(300, 400, 40) / 2).epsilon(1e-6));
+        CHECK(model.domain.extent.hi.z == 50);
+    }
     options.pad = 30;
     built(site_of({{0, 0, -400}, {1000, 1000, 0}, {500, 300, -200}}), options, model);
     CHECK(model.domain.extent == Box3{{-30, -30, -430}, {1030, 1030, 30}});

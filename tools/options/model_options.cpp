@@ -273,7 +273,9 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               6},
              {{"pad"},
               "LENGTH",
-              "around the data's box; by default --lmax in plan, a quarter of the data's height above and below",
+              "around the data's box; by default --lmax in plan, at most half the data's diagonal, and a quarter of "
+              "their "
+              "height above and below",
               &a.pad},
              {{"density"},
               "HOW",

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tess/barrier/seeds/ball_radii.hpp"
 #include "tess/barrier/seeds/seeding.hpp"
-#include "tess/barrier/seeds/settle.hpp"
 #include "tess/base/compatible.hpp"
 #include "tess/base/seed_grid.hpp"
 #include "tess/base/seed_tree.hpp"
@@ -20,8 +20,6 @@ constexpr double ring_step = 0.2;       ///< of rings along junctions, in edge l
 constexpr double ring_radius = 0.14;
 constexpr double way_freedom = 0.02;    ///< in edge lengths: how far pairs may be moved to mend slivers,
 constexpr double height_freedom = 0.1;  ///< and by which part lowered, unless they are certified
-constexpr double tolerance = 1e-8;      ///< relative, on the radii: rounding of the seeds,
-constexpr double depth = 5e-9;          ///< and that they stand in general position
 
 using Candidate = BallPair;
 
@@ -45,7 +43,7 @@ class ExactSeeds {
             }
         }
         add_rings(chosen, points);
-        collector_.mend([&](const Vec3& seed) { return harmless(seed, points); });
+        mend(points);
         ask(task_.poll);
         SeededComplex result;
         result.certified = certify();
@@ -71,29 +69,14 @@ class ExactSeeds {
 
     /// The point of the plane with equal power to the three corners' balls, and what is left of it for the height.
     void find_radical() {
-        radical_.assign(complex_.triangles.size(), {});
         for (std::uint32_t t = 0; t < complex_.triangles.size(); ++t) {
-            const Triangle& v = complex_.triangles[t];
-            const TriangleCorners c = corners(complex_, t);
-            const Vec3 u = c[1] - c[0];
-            const Vec3 w = c[2] - c[0];
-            const double uu = squared_length(u);
-            const double uw = dot(u, w);
-            const double ww = squared_length(w);
-            const double determinant = uu * ww - uw * uw;
-            if (!(determinant > 1e-12 * uu * ww)) {
-                continue;
-            }
-            const double square = radius_[v[0]] * radius_[v[0]];
-            const double first = 0.5 * (uu + square - radius_[v[1]] * radius_[v[1]]);
-            const double second = 0.5 * (ww + square - radius_[v[2]] * radius_[v[2]]);
-            const Vec3 x =
-                ((first * ww - second * uw) / determinant) * u + ((second * uu - first * uw) / determinant) * w;
-            const double height_squared = square - squared_length(x);
-            if (height_squared > 1e-6 * square) {
-                radical_[t] = {c[0] + x, std::sqrt(height_squared)};
-            }
+            radical_.push_back(radical(t));
         }
+    }
+
+    [[nodiscard]] Candidate radical(std::uint32_t t) const {
+        const Triangle& v = complex_.triangles[t];
+        return radical_pair(corners(complex_, t), {radius_[v[0]], radius_[v[1]], radius_[v[2]]});
     }
 
     [[nodiscard]] Vec3 normal(std::uint32_t t) const { return unit(area_vector(corners(complex_, t))); }
@@ -111,7 +94,7 @@ class ExactSeeds {
             if (t % 256 == 0) {
                 ask(task_.poll);
             }
-            if (radical_[t].height > 0 && !is_relaxed(t) && sees_its_seeds(t)) {
+            if (radical_[t].height > 0 && !is_relaxed(t) && sees_its_seeds(t, radical_[t])) {
                 able[t] = 1;
                 for (const std::uint32_t v : complex_.triangles[t]) {
                     star[v].push_back(t);
@@ -124,7 +107,7 @@ class ExactSeeds {
             const Vec3 up = radical_[t].height * normal(t);
             for (const Vec3& seed : {radical_[t].foot + up, radical_[t].foot - up}) {
                 points.visit(seed, [&](std::uint32_t v) {
-                    if (able[t] != 0 && distance(points.point(v), seed) < radius_[v] * (1 - tolerance)) {
+                    if (able[t] != 0 && distance(points.point(v), seed) < radius_[v] * (1 - ball_tolerance)) {
                         for (const std::uint32_t other : star[v]) {
                             conflicts[t].push_back(other);
                             conflicts[other].push_back(t);
@@ -149,7 +132,7 @@ class ExactSeeds {
         for (std::size_t v = 0; v < clear.size(); ++v) {
             const std::uint32_t nearest = seeds.nearest(complex_.points[v], 1.1 * task_.sizes.spacing());
             if (nearest != SeedTree::none &&
-                distance(seeds.point(nearest), complex_.points[v]) < radius_[v] * (1 - tolerance)) {
+                distance(seeds.point(nearest), complex_.points[v]) < radius_[v] * (1 - ball_tolerance)) {
                 clear[v] = 0;
             }
         }
@@ -169,9 +152,9 @@ class ExactSeeds {
         });
     }
 
-    [[nodiscard]] bool sees_its_seeds(std::uint32_t t) const {
-        const Vec3 up = radical_[t].height * normal(t);
-        return sees(t, radical_[t].foot + up) && sees(t, radical_[t].foot - up);
+    [[nodiscard]] bool sees_its_seeds(std::uint32_t t, const Candidate& pair) const {
+        const Vec3 up = pair.height * normal(t);
+        return sees(t, pair.foot + up) && sees(t, pair.foot - up);
     }
 
     [[nodiscard]] bool sees(std::uint32_t t, const Vec3& seed) const {
@@ -187,30 +170,57 @@ class ExactSeeds {
     }
 
     void place_radical(const std::vector<char>& chosen) {
-        std::vector<BallPair> pairs(chosen.size());
+        ball_pairs_.resize(chosen.size());
+        std::vector<std::uint32_t> all;
         for (std::uint32_t t = 0; t < chosen.size(); ++t) {
             if (chosen[t] != 0) {
-                pairs[t] = radical_[t];
+                ball_pairs_[t] = radical_[t];
+                all.push_back(t);
             }
         }
-        const std::vector<std::array<Vec3, 2>> seeds = settled_seeds(complex_, radius_, pairs, depth);
+        const std::vector<std::array<Vec3, 2>> seeds =
+            settled_seeds(complex_, radius_, ball_pairs_, ball_depth, all, all);
         placed_.assign(chosen.size(), 0);
+        number_.assign(chosen.size(), 0);
         certified_ball_.assign(complex_.points.size(), 0);
-        for (std::uint32_t t = 0; t < chosen.size(); ++t) {
-            if (chosen[t] != 0) {
-                placed_[t] = collector_.add(complex_.sheet[t], seeds[t][0], seeds[t][1], {}) ? 1 : 0;
-                for (const std::uint32_t v : complex_.triangles[t]) {
-                    certified_ball_[v] = 1;
-                }
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::uint32_t t = all[i];
+            number_[t] = collector_.seeds()[complex_.sheet[t]].size() / 2;
+            if (collector_.add(complex_.sheet[t], seeds[i][0], seeds[i][1], {})) {
+                placed_[t] = 1;
+            } else {
+                ball_pairs_[t] = {};
+            }
+            for (const std::uint32_t v : complex_.triangles[t]) {
+                certified_ball_[v] = 1;
             }
         }
+    }
+
+    /// Pairs of certified triangles move with the radii of their corners' balls.
+    void mend(const SeedGrid& points) {
+        if (task_.mend_within == nullptr) {
+            return;
+        }
+        std::vector<std::size_t> numbers;
+        for (std::uint32_t t = 0; t < number_.size(); ++t) {
+            numbers.push_back(collector_.first_pair(complex_.sheet[t]) + number_[t]);
+        }
+        BallRadii balls({complex_, points, task_.frame, radius_, ball_pairs_, numbers, certified_ball_, placed_,
+                         [&](std::uint32_t t, const Vec3& seed) { return sees(t, seed); }},
+                        collector_.places());
+        collector_.mend([&](const Vec3& seed) { return harmless(seed, points); },
+                        {[&](std::size_t pair, std::uint64_t number, const std::vector<MovablePair>& now) {
+                             return balls.propose(pair, number, now);
+                         },
+                         [&](std::size_t, std::uint64_t) { balls.accept(); }});
     }
 
     [[nodiscard]] bool harmless(const Vec3& seed, const SeedGrid& points) const {
         bool inside = false;
         points.visit(seed, [&](std::uint32_t v) {
-            inside = inside ||
-                     (certified_ball_[v] != 0 && distance(points.point(v), seed) < radius_[v] * (1 - 0.1 * tolerance));
+            inside = inside || (certified_ball_[v] != 0 &&
+                                distance(points.point(v), seed) < radius_[v] * (1 - 0.1 * ball_tolerance));
         });
         return !inside;
     }
@@ -351,6 +361,8 @@ class ExactSeeds {
     SeedCollector collector_;
     std::vector<double> radius_;
     std::vector<Candidate> radical_;
+    std::vector<BallPair> ball_pairs_;  ///< by triangle: of those that have radical seeds
+    std::vector<std::size_t> number_;   ///< by triangle: of that pair among its surface's
     std::vector<char> placed_;          ///< by triangle: its radical seeds are there
     std::vector<char> certified_ball_;  ///< by point: no other seeds may enter its ball
 };

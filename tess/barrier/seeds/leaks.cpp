@@ -428,20 +428,21 @@ double LeakFinder::distance_to_seed(const Vec3& p) const {
     return distance(from_cgal(impl_->tessellation.nearest_vertex(to_cgal(p))->point()), p);
 }
 
-double LeakFinder::distance_to_sheet(std::uint32_t barrier, const Vec3& p) const {
-    return impl_->sheets.query().distance_to_sheet(static_cast<std::int32_t>(barrier), p);
+const LeakSheets& LeakFinder::sheets() const {
+    return impl_->sheets;
 }
 
-double LeakFinder::distance_to_others(std::uint32_t barrier, const Vec3& p, double most) const {
-    return impl_->sheets.distance_to_others(barrier, p, most);
-}
-
-bool LeakFinder::is_hidden(const Vec3& a, const Vec3& b) const {
-    return impl_->sheets.hide(a, b);
-}
-
-Vec3 LeakFinder::normal_at(std::uint32_t barrier, const Vec3& place) const {
-    return impl_->sheets.normal_at(barrier, place);
+std::vector<std::array<std::uint32_t, 4>> LeakFinder::cells_at(std::uint32_t first) const {
+    std::vector<Cell> cells;
+    for (const std::uint32_t site : {first, first + 1}) {
+        impl_->tessellation.finite_incident_cells(impl_->vertices[site], std::back_inserter(cells));
+    }
+    std::vector<Corners> result;
+    for (const Cell& cell : cells) {
+        result.push_back(
+            {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
+    }
+    return result;
 }
 
 }  // namespace terratet

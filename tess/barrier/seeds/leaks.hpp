@@ -16,6 +16,7 @@
 /// unless both see a round a rim: so a ball leaks as well that has room for a chord through a triangle whose ends are
 /// out of the zone.
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -25,6 +26,8 @@
 #include "tess/base/poll.hpp"
 
 namespace terratet {
+
+class LeakSheets;
 
 struct Leak {
     Vec3 center;  ///< of the empty ball; of an edge between seeds that over it
@@ -75,11 +78,9 @@ class LeakFinder {
     void drop_pair(std::uint32_t first);
 
     [[nodiscard]] double distance_to_seed(const Vec3& p) const;
-    [[nodiscard]] double distance_to_sheet(std::uint32_t barrier, const Vec3& p) const;
-    [[nodiscard]] double distance_to_others(std::uint32_t barrier, const Vec3& p,
-                                            double most) const;                    ///< `most` at most
-    [[nodiscard]] bool is_hidden(const Vec3& a, const Vec3& b) const;              ///< by any sheet
-    [[nodiscard]] Vec3 normal_at(std::uint32_t barrier, const Vec3& place) const;  ///< \pre on its sheet
+    [[nodiscard]] const LeakSheets& sheets() const;
+    /// Sites of the cells at a pair's seeds, but for the infinite ones; some twice.
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 4>> cells_at(std::uint32_t first) const;
 
   private:
     struct Impl;

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "tess/barrier/seeds/leak_sheets.hpp"
 #include "tess/barrier/seeds/leaks.hpp"
+#include "tess/barrier/seeds/slivers.hpp"
+#include "tess/base/random_share.hpp"
 
 namespace terratet {
 namespace {
@@ -17,6 +20,8 @@ constexpr double coverable = 1.4;     ///< radius of a ball that twelve cover, i
 constexpr double widest_kept = 4;     ///< radius of a ball that several may close, in the same
 constexpr double lowest = 1e-4;       ///< height of an added seed over its sheet at least, in spacings
 constexpr double harmful = 1e-3;      ///< distance of a seed from a foreign sheet, in spacings
+constexpr double aside = 0.06;        ///< how far an added pair may go not to make slivers, in spacings
+constexpr std::uint64_t asides = 12;  ///< places tried for that
 constexpr double touching = 1 - 1e-6;
 
 class Sealer {
@@ -64,6 +69,7 @@ class Sealer {
         std::uint32_t barrier = 0;
         Vec3 plus;
         Vec3 minus;
+        Leak leak;  ///< that it closes
     };
 
     bool close_by_flake(const Leak& leak) {
@@ -90,14 +96,14 @@ class Sealer {
     /// Where the sheet runs through the ball, as high as other sheets and seeds allow.
     bool add_pair(const Leak& leak) {
         const Barrier& barrier = barriers_[leak.barrier];
-        const Vec3 normal = finder_.normal_at(leak.barrier, leak.place);
-        double height = std::min(0.5 * barrier.width,
-                                 0.4 * finder_.distance_to_others(leak.barrier, leak.place, 2 * barrier.width));
+        const Vec3 normal = finder_.sheets().normal_at(leak.barrier, leak.place);
+        double height = std::min(0.5 * barrier.width, 0.4 * finder_.sheets().distance_to_others(
+                                                                leak.barrier, leak.place, 2 * barrier.width));
         for (; height > lowest * barrier.spacing; height *= 0.5) {
             const Vec3 plus = frame_.snapped(leak.place + height * normal);
             const Vec3 minus = frame_.snapped(leak.place - height * normal);
             if (fits(plus, leak, height) && fits(minus, leak, height)) {
-                added_.push_back({leak.barrier, plus, minus});
+                added_.push_back({leak.barrier, plus, minus, leak});
                 return true;
             }
         }
@@ -108,7 +114,7 @@ class Sealer {
         const double clear = 0.25 * height;
         return hull_.grown(-0.5 * barriers_[leak.barrier].spacing).contains(seed) && holds(leak, seed) &&
                finder_.distance_to_seed(seed) >= clear &&
-               !finder_.is_hidden(leak.place + 0.01 * (seed - leak.place), seed) &&
+               !finder_.sheets().hide(leak.place + 0.01 * (seed - leak.place), seed) &&
                std::ranges::none_of(added_, [&](const Pair& pair) {
                    return distance(pair.plus, seed) < clear || distance(pair.minus, seed) < clear;
                });
@@ -117,7 +123,8 @@ class Sealer {
     /// A seed that all but lies on another sheet, or on another part of its own, does more harm than good.
     bool drop_pair(const Leak& leak) {
         const LeakFinder::Site& site = finder_.sites()[leak.from];
-        if (finder_.distance_to_sheet(leak.barrier, site.position) > harmful * barriers_[leak.barrier].spacing) {
+        if (finder_.sheets().query().distance_to_sheet(static_cast<std::int32_t>(leak.barrier), site.position) >
+            harmful * barriers_[leak.barrier].spacing) {
             return false;
         }
         dropped_.push_back(site.first);
@@ -163,11 +170,63 @@ class Sealer {
             finder_.drop_pair(first);
         }
         for (const Pair& pair : added_) {
-            seal_.changed.insert(seal_.changed.end(), {pair.plus, pair.minus});
-            finder_.add_pair(pair.barrier, pair.plus, pair.minus);
+            const std::uint32_t first = add_without_slivers(pair);
+            seal_.changed.push_back(finder_.sites()[first].position);
+            seal_.changed.push_back(finder_.sites()[first + 1].position);
         }
         dropped_.clear();
         added_.clear();
+    }
+
+    /// There, or a little aside where that makes fewer slivers. Returns the first site.
+    std::uint32_t add_without_slivers(const Pair& pair) {
+        std::uint32_t first = finder_.add_pair(pair.barrier, pair.plus, pair.minus);
+        std::size_t least = slivers_at(first);
+        Pair best = pair;
+        for (std::uint64_t number = 0; number < asides && least > 0; ++number) {
+            const Pair other = moved_aside(pair, number);
+            finder_.drop_pair(first);
+            const double height = 0.5 * distance(other.plus, other.minus);
+            if (fits(other.plus, pair.leak, height) && fits(other.minus, pair.leak, height)) {
+                first = finder_.add_pair(pair.barrier, other.plus, other.minus);
+                if (const std::size_t slivers = slivers_at(first); slivers < least) {
+                    least = slivers;
+                    best = other;
+                    continue;
+                }
+                finder_.drop_pair(first);
+            }
+            first = finder_.add_pair(best.barrier, best.plus, best.minus);
+        }
+        return first;
+    }
+
+    [[nodiscard]] Pair moved_aside(const Pair& pair, std::uint64_t number) const {
+        const auto share = [&](std::uint64_t which) { return 2 * random_share(3 * number + which) - 1; };
+        const Vec3 middle = 0.5 * (pair.plus + pair.minus);
+        const Vec3 half = (1 - 0.15 * (1 + share(0))) * (0.5 * (pair.plus - pair.minus));
+        const Vec3 level = std::abs(half.x) < 0.7 * length(half) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        const Vec3 first = unit(cross(half, level));
+        const double way = aside * barriers_[pair.barrier].spacing;
+        const Vec3 to = middle + way * (share(1) * first + share(2) * unit(cross(half, first)));
+        return {pair.barrier, frame_.snapped(to + half), frame_.snapped(to - half), pair.leak};
+    }
+
+    [[nodiscard]] std::size_t slivers_at(std::uint32_t first) const {
+        const SliverRule rule{widest_sliver * barriers_[finder_.sites()[first].owner].spacing, hull_,
+                              [this](const Vec3& a, const Vec3& b) { return finder_.sheets().hide(a, b); }};
+        const auto cells = finder_.cells_at(first);
+        return static_cast<std::size_t>(std::ranges::count_if(cells, [&](const auto& cell) {
+            std::array<SliverCorner, 4> corners;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const LeakFinder::Site& site = finder_.sites()[cell[i]];
+                if (site.owner == LeakFinder::nobody) {
+                    return false;
+                }
+                corners[i] = {site.position, site.owner, cell[i] == site.first};
+            }
+            return is_sliver(corners, rule);
+        }));
     }
 
     Seal result() {

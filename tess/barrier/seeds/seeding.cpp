@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tess/barrier/seeds/slivers.hpp"
 #include "tess/base/seed_tree.hpp"
 
 namespace terratet {
 namespace {
 
 constexpr double height_freedom = 0.15;  ///< by which part pairs may be lowered whose places cover more than theirs
-constexpr double widest_sliver = 3;      ///< radius of a ball that may stay empty, in spacings
 
 }  // namespace
 
@@ -34,7 +32,15 @@ bool SeedCollector::add(std::uint32_t surface, const Vec3& plus, const Vec3& min
     return true;
 }
 
-std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& seed)>& fits) {
+std::size_t SeedCollector::first_pair(std::uint32_t surface) const {
+    std::size_t first = 0;
+    for (std::uint32_t before = 0; before < surface; ++before) {
+        first += freedom_[before].size();
+    }
+    return first;
+}
+
+std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& seed)>& fits, const LinkedPairs& linked) {
     std::vector<double> farthest(task_.surface_count, 0);
     if (task_.mend_within == nullptr) {
         return farthest;
@@ -49,13 +55,13 @@ std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& see
     }
     const std::vector<MovablePair> given = pairs;
     SliverTask task;
-    task.reach = widest_sliver * task_.sizes.spacing();
-    task.extent = *task_.mend_within;
+    task.rule = {widest_sliver * task_.sizes.spacing(), *task_.mend_within,
+                 [&](const Vec3& a, const Vec3& b) { return task_.wall.between(a, b); }};
     task.may_move = [&](std::size_t pair, const Vec3& plus, const Vec3& minus) {
         return !taken_.contains(plus) && !taken_.contains(minus) && fits(plus) && fits(minus) &&
                !task_.wall.between(given[pair].plus, plus) && !task_.wall.between(given[pair].minus, minus);
     };
-    task.apart = [&](const Vec3& a, const Vec3& b) { return task_.wall.between(a, b); };
+    task.linked = linked;
     const SliversMended mended = mend_slivers(pairs, task, task_.frame, task_.poll);
     places_.clear();
     std::vector<std::size_t> next(task_.surface_count, 0);

@@ -13,6 +13,7 @@
 #include "tess/barrier/complex/sheet_complex.hpp"
 #include "tess/barrier/complex/sheet_wall.hpp"
 #include "tess/barrier/seeds/cover.hpp"
+#include "tess/barrier/seeds/slivers.hpp"
 #include "tess/base/poll.hpp"
 #include "tess/base/size_field.hpp"
 #include "tess/frame.hpp"
@@ -71,7 +72,10 @@ class SeedCollector {
 
     /// Moves pairs where seeds make slivers, if the task asks for it: through no sheet, and only to where they fit.
     /// Returns how far those of each surface went along it at most.
-    std::vector<double> mend(const std::function<bool(const Vec3& seed)>& fits);
+    std::vector<double> mend(const std::function<bool(const Vec3& seed)>& fits, const LinkedPairs& linked = {});
+
+    /// The number that a surface's first pair has while pairs are mended.
+    [[nodiscard]] std::size_t first_pair(std::uint32_t surface) const;
 
     /// Covers sheets and skirts with pairs, the skirts but for places nearer than `clear` to other surfaces. Then finds
     /// the covering radii.

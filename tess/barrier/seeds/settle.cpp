@@ -25,10 +25,12 @@ struct Tilt {
 
 class Settler {
   public:
-    Settler(const SheetComplex& complex, std::span<const double> radii, std::span<const BallPair> pairs, double depth)
-        : complex_(complex), radii_(radii), pairs_(pairs), depths_(radii.size(), depth) {
+    Settler(const SheetComplex& complex, std::span<const double> radii, std::span<const BallPair> pairs, double depth,
+            std::span<const std::uint32_t> among)
+        : complex_(complex), radii_(radii), pairs_(pairs), among_(among) {
         for_each_corner([&](std::uint32_t t, std::uint32_t v) {
-            depths_[v] = std::min(depths_[v], depth * pairs[t].height / (low * radii[v]));
+            double& of_point = depths_.try_emplace(v, depth).first->second;
+            of_point = std::min(of_point, depth * pairs[t].height / (low * radii[v]));
             Vec3& normal = tilts_[{v, complex.sheet[t]}].normal;
             normal = normal + normal_of(t);
         });
@@ -57,8 +59,8 @@ class Settler {
             up[k] = way / radii_[v];
             const double half = 0.5 * (tilt.highest[side] - tilt.lowest[side]);
             const double height = height_over(tilt, way, side) - tilt.lowest[side] - half;
-            const double least = even * depths_[v] * radii_[v];
-            sink[k] = depths_[v] * radii_[v] * height / std::max(half, least);
+            const double least = even * depths_.at(v) * radii_[v];
+            sink[k] = depths_.at(v) * radii_[v] * height / std::max(half, least);
             flatness = std::min(flatness, std::max(0.0, 1 - half / least));
         }
         const Vec3 turned = cross(up[1], up[2]);
@@ -70,7 +72,7 @@ class Settler {
   private:
     template <class Call>
     void for_each_corner(const Call& call) const {
-        for (std::uint32_t t = 0; t < pairs_.size(); ++t) {
+        for (const std::uint32_t t : among_) {
             if (pairs_[t].height > 0) {
                 for (const std::uint32_t v : complex_.triangles[t]) {
                     call(t, v);
@@ -93,7 +95,7 @@ class Settler {
     [[nodiscard]] Vec3 along(std::uint32_t t) const {
         const Triangle& v = complex_.triangles[t];
         const TriangleCorners c = corners(complex_, t);
-        const double way = aside * std::min({depths_[v[0]], depths_[v[1]], depths_[v[2]]});
+        const double way = aside * std::min({depths_.at(v[0]), depths_.at(v[1]), depths_.at(v[2])});
         return way *
                ((2 * random_share(2 * t) - 1) * (c[1] - c[0]) + (2 * random_share(2 * t + 1) - 1) * (c[2] - c[0]));
     }
@@ -101,20 +103,21 @@ class Settler {
     const SheetComplex& complex_;
     std::span<const double> radii_;
     std::span<const BallPair> pairs_;
-    std::vector<double> depths_;                                     ///< by point, in radii
+    std::span<const std::uint32_t> among_;                           ///< triangles
+    std::map<std::uint32_t, double> depths_;                         ///< by point, in radii
     std::map<std::pair<std::uint32_t, std::uint32_t>, Tilt> tilts_;  ///< by point and surface
 };
 
 }  // namespace
 
 std::vector<std::array<Vec3, 2>> settled_seeds(const SheetComplex& complex, std::span<const double> radii,
-                                               std::span<const BallPair> pairs, double depth) {
-    const Settler settler(complex, radii, pairs, depth);
-    std::vector<std::array<Vec3, 2>> result(pairs.size());
-    for (std::uint32_t t = 0; t < pairs.size(); ++t) {
-        if (pairs[t].height > 0) {
-            result[t] = {settler.settled(t, 0), settler.settled(t, 1)};
-        }
+                                               std::span<const BallPair> pairs, double depth,
+                                               std::span<const std::uint32_t> of,
+                                               std::span<const std::uint32_t> among) {
+    const Settler settler(complex, radii, pairs, depth, among);
+    std::vector<std::array<Vec3, 2>> result;
+    for (const std::uint32_t t : of) {
+        result.push_back({settler.settled(t, 0), settler.settled(t, 1)});
     }
     return result;
 }

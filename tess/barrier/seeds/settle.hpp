@@ -24,9 +24,12 @@ struct BallPair {
     double height = 0;
 };
 
-/// Where to put them, + first: nearer to their corners than the ball's radius, or farther, by at most `depth` radii,
-/// and less where the seeds are low, so that the wall between them stays within 5 depths of the sheet. O(n log n).
+/// Where to put those of the triangles `of`, + first: nearer to their corners than the ball's radius, or farther, by at
+/// most `depth` radii, and less where the seeds are low, so that the wall between them stays within 5 depths of the
+/// sheet. `pairs` by triangle; `among`: all triangles that share a corner with one of them. O(n log n).
+/// \pre All `of` have a pair.
 std::vector<std::array<Vec3, 2>> settled_seeds(const SheetComplex& complex, std::span<const double> radii,
-                                               std::span<const BallPair> pairs, double depth);
+                                               std::span<const BallPair> pairs, double depth,
+                                               std::span<const std::uint32_t> of, std::span<const std::uint32_t> among);
 
 }  // namespace terratet

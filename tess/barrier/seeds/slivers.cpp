@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -29,11 +30,29 @@ using Cell = Delaunay::Cell_handle;
 using Corners = std::array<std::uint32_t, 4>;  ///< sites, ascending
 
 constexpr double flat_deg = 1.1;  ///< a degree, and a little for rounding
-constexpr std::uint64_t rounds = 6;
+constexpr double lower = 2.5;     ///< times the freedom of heights, as a last resort
+constexpr std::uint64_t rounds = last_resort_from / 8 + 10;
 constexpr std::uint64_t tries = 8;  ///< for each sliver in a round
 
 Kernel::Point_3 to_cgal(const Vec3& p) {
     return {p.x, p.y, p.z};
+}
+
+bool fills_gap(const std::array<SliverCorner, 4>& corners, const SliverRule& rule) {
+    const auto plus = std::ranges::count_if(corners, &SliverCorner::plus);
+    const bool one =
+        std::ranges::all_of(corners, [&](const SliverCorner& corner) { return corner.owner == corners[0].owner; });
+    if (one && plus > 0 && plus < 4) {
+        return true;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (rule.apart(corners[i].position, corners[j].position)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 /// Site 2k is the + seed of pair k, site 2k + 1 its − seed.
@@ -83,35 +102,13 @@ class Mender {
         if (tessellation_.is_infinite(cell)) {
             return false;
         }
+        std::array<SliverCorner, 4> corners;
         for (std::size_t i = 0; i < 4; ++i) {
             v[i] = cell->vertex(static_cast<int>(i))->info();
-        }
-        const CellPoints points{position(v[0]), position(v[1]), position(v[2]), position(v[3])};
-        static const double sharp = sharpness(std::cos(flat_deg * std::numbers::pi / 180));
-        if (cell_sharpness(points, -1, sharp) <= sharp || fills_gap(v, points) ||
-            !task_.extent.contains(0.25 * (points[0] + points[1] + points[2] + points[3]))) {
-            return false;
+            corners[i] = {position(v[i]), pairs_[v[i] / 2].owner, v[i] % 2 == 0};
         }
         std::ranges::sort(v);
-        const Circumsphere ball = circumsphere({position(v[0]), position(v[1]), position(v[2]), position(v[3])});
-        return ball.six_volumes == 0 || ball.squared_radius <= task_.reach * task_.reach;
-    }
-
-    [[nodiscard]] bool fills_gap(const Corners& v, const CellPoints& points) const {
-        const auto sides = std::ranges::count_if(v, [](std::uint32_t site) { return site % 2 == 0; });
-        const bool one = std::ranges::all_of(
-            v, [&](std::uint32_t site) { return pairs_[site / 2].owner == pairs_[v[0] / 2].owner; });
-        if (one && sides > 0 && sides < 4) {
-            return true;
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                if (task_.apart(points[i], points[j])) {
-                    return true;
-                }
-            }
-        }
-        return false;
+        return terratet::is_sliver(corners, task_.rule);
     }
 
     [[nodiscard]] std::set<Corners> all_slivers() const {
@@ -127,15 +124,16 @@ class Mender {
     }
 
     [[nodiscard]] std::set<Corners> slivers_round(const std::set<std::uint32_t>& sites) const {
-        std::set<Corners> slivers;
         std::vector<Cell> cells;
         for (const std::uint32_t site : sites) {
-            cells.clear();
             tessellation_.incident_cells(vertices_[site], std::back_inserter(cells));
-            for (const Cell& cell : cells) {
-                if (Corners v{}; is_sliver(cell, v)) {
-                    slivers.insert(v);
-                }
+        }
+        std::ranges::sort(cells, std::less<>{}, [](const Cell& cell) { return &*cell; });
+        cells.erase(std::ranges::unique(cells).begin(), cells.end());
+        std::set<Corners> slivers;
+        for (const Cell& cell : cells) {
+            if (Corners v{}; is_sliver(cell, v)) {
+                slivers.insert(v);
             }
         }
         return slivers;
@@ -168,35 +166,53 @@ class Mender {
     }
 
     void try_to_move(std::uint32_t pair, std::uint64_t number, std::set<Corners>& left) {
-        const MovablePair before = pairs_[pair];
-        if (before.along <= 0 && before.height <= 0) {
+        const bool linked = pairs_[pair].along <= 0 && pairs_[pair].height <= 0;
+        const std::vector<PairMove> after = linked ? linked_proposal(pair, number) : lone_proposal(pair, number);
+        if (after.empty()) {
             return;
         }
-        const MovablePair after = proposal(pair, number);
-        if (after.plus == after.minus || !task_.may_move(pair, after.plus, after.minus)) {
-            return;
+        std::vector<PairMove> before;
+        std::set<std::uint32_t> own;
+        for (const PairMove& move : after) {
+            const auto site = static_cast<std::uint32_t>(2 * move.pair);
+            before.push_back({move.pair, position(site), position(site + 1)});
+            own.insert({site, site + 1});
         }
-        std::set<std::uint32_t> sites{2 * pair, 2 * pair + 1};
-        add_neighbours(2 * pair, sites);
-        add_neighbours(2 * pair + 1, sites);
+        std::set<std::uint32_t> sites;
+        for (const std::uint32_t site : own) {
+            add_neighbours(site, sites);
+        }
+        const auto other = std::ranges::find_if(sites, [&](std::uint32_t site) { return !own.contains(site); });
+        const Vertex near = other == sites.end() ? Vertex{} : vertices_[*other];
+        sites.insert(own.begin(), own.end());
         const std::size_t slivers_before = slivers_round(sites).size();
-        sites.erase(2 * pair);
-        sites.erase(2 * pair + 1);
-        const std::uint32_t near = sites.empty() ? 2 * pair : *sites.begin();
-        sites.insert({2 * pair, 2 * pair + 1});
-        put(pair, after, near);
+        put(after, near);
         if (const std::set<Corners> slivers = slivers_round(sites); slivers.size() < slivers_before) {
             left.insert(slivers.begin(), slivers.end());
+            if (linked) {
+                task_.linked.accept(pair, number);
+            }
         } else {
-            put(pair, before, near);
+            put(before, near);
         }
+    }
+
+    [[nodiscard]] std::vector<PairMove> linked_proposal(std::uint32_t pair, std::uint64_t number) const {
+        return task_.linked.propose ? task_.linked.propose(pair, number, pairs_) : std::vector<PairMove>{};
+    }
+
+    [[nodiscard]] std::vector<PairMove> lone_proposal(std::uint32_t pair, std::uint64_t number) const {
+        const MovablePair at = proposal(pair, number);
+        const bool fits = at.plus != at.minus && task_.may_move(pair, at.plus, at.minus);
+        return fits ? std::vector<PairMove>{{pair, at.plus, at.minus}} : std::vector<PairMove>{};
     }
 
     [[nodiscard]] MovablePair proposal(std::uint32_t pair, std::uint64_t number) const {
         const auto random = [&](std::uint64_t which) { return random_share(mixed_key(4 * number + which) ^ pair); };
         MovablePair result = given_[pair];
         const Vec3 middle = 0.5 * (result.plus + result.minus);
-        const Vec3 half = (1 - result.height * random(0)) * (0.5 * (result.plus - result.minus));
+        const double height = result.height * (number < last_resort_from ? 1 : lower);
+        const Vec3 half = (1 - height * random(0)) * (0.5 * (result.plus - result.minus));
         const Vec3 normal = unit(half);
         const Vec3 level = std::abs(normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
         const Vec3 first = unit(cross(normal, level));
@@ -209,16 +225,19 @@ class Mender {
         return result;
     }
 
-    void put(std::uint32_t pair, const MovablePair& at, std::uint32_t near) {
-        for (const std::uint32_t site : {2 * pair, 2 * pair + 1}) {
-            tessellation_.remove(vertices_[site]);
+    void put(const std::vector<PairMove>& moves, Vertex hint) {
+        for (const PairMove& move : moves) {
+            tessellation_.remove(vertices_[2 * move.pair]);
+            tessellation_.remove(vertices_[2 * move.pair + 1]);
         }
-        pairs_[pair] = at;
-        Vertex hint = near / 2 == pair ? Vertex{} : vertices_[near];
-        for (const std::uint32_t site : {2 * pair, 2 * pair + 1}) {
-            hint = tessellation_.insert(to_cgal(position(site)), hint);
-            hint->info() = site;
-            vertices_[site] = hint;
+        for (const PairMove& move : moves) {
+            pairs_[move.pair].plus = move.plus;
+            pairs_[move.pair].minus = move.minus;
+            for (const std::size_t site : {2 * move.pair, 2 * move.pair + 1}) {
+                hint = tessellation_.insert(to_cgal(position(static_cast<std::uint32_t>(site))), hint);
+                hint->info() = static_cast<std::uint32_t>(site);
+                vertices_[site] = hint;
+            }
         }
     }
 
@@ -232,6 +251,19 @@ class Mender {
 };
 
 }  // namespace
+
+bool is_sliver(const std::array<SliverCorner, 4>& corners, const SliverRule& rule) {
+    const CellPoints p{corners[0].position, corners[1].position, corners[2].position, corners[3].position};
+    static const double sharp = sharpness(std::cos(flat_deg * std::numbers::pi / 180));
+    if (cell_sharpness(p, -1, sharp) <= sharp || !rule.extent.contains(0.25 * (p[0] + p[1] + p[2] + p[3]))) {
+        return false;
+    }
+    auto ordered = corners;  // in one order whatever the cell's, for the same rounding
+    std::ranges::sort(ordered, {}, &SliverCorner::position);
+    const Circumsphere ball =
+        circumsphere({ordered[0].position, ordered[1].position, ordered[2].position, ordered[3].position});
+    return (ball.six_volumes == 0 || ball.squared_radius <= rule.reach * rule.reach) && !fills_gap(corners, rule);
+}
 
 SliversMended mend_slivers(std::vector<MovablePair>& pairs, const SliverTask& task, const Frame& frame,
                            const Poll& poll) {

@@ -185,7 +185,7 @@ TEST_CASE("l_min between samples goes down by steps until there are enough verti
     CHECK(report.refine.stopped);
     CHECK(l_min > world.options.criteria.l_min_between);
     CHECK(l_min < world.options.criteria.l_min);
-    CHECK(made->model.vertices.size() <= fine->model.vertices.size() / 2);
+    CHECK(made->model.vertices.size() <= world.options.refine.enough_vertices);
     CHECK(report.refine.skipped.at(Reason::too_close) > 0);
     CHECK(std::ranges::any_of(report.diagnostics.notes, [](const std::string& note) {
         return note.find("vertices between samples keep") != note.npos;
@@ -194,6 +194,17 @@ TEST_CASE("l_min between samples goes down by steps until there are enough verti
         INFO(verdict.guarantee << " " << verdict.detail);
         CHECK(verdict.holds);
     }
+    testing::World other = world;
+    bool odd = false;
+    for (const std::size_t part : {2, 3, 4, 6}) {  // every step is by √2
+        other.options.refine.enough_vertices = fine->model.vertices.size() / part;
+        BuildReport of_part;
+        const double reached = built(other, layered, of_part)->model.criteria.l_min_between;
+        const double steps = 2 * std::log2(world.options.criteria.l_min / reached);
+        CHECK(std::abs(steps - std::round(steps)) < 1e-9);
+        odd = odd || std::lround(steps) % 2 == 1;
+    }
+    CHECK(odd);
     world.options.criteria.l_min_between = l_min;
     world.options.refine.enough_vertices = 0;
     BuildReport again;

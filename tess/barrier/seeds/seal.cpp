@@ -178,10 +178,10 @@ class Sealer {
         added_.clear();
     }
 
-    /// There, or a little aside where that makes fewer slivers. Returns the first site.
+    /// There, or a little aside where that makes fewer slivers, but for what the model ends at. Returns the first site.
     std::uint32_t add_without_slivers(const Pair& pair) {
         std::uint32_t first = finder_.add_pair(pair.barrier, pair.plus, pair.minus);
-        std::size_t least = slivers_at(first);
+        std::size_t least = is_bound(barriers_[pair.barrier].sheet.kind) ? 0 : slivers_at(first);
         Pair best = pair;
         for (std::uint64_t number = 0; number < asides && least > 0; ++number) {
             const Pair other = moved_aside(pair, number);

@@ -10,7 +10,8 @@
 namespace terratet {
 namespace {
 
-constexpr double height_freedom = 0.15;  ///< by which part pairs may be lowered whose places cover more than theirs
+constexpr double last_resort_lower = 2.5;  ///< times the freedom of heights
+constexpr double height_freedom = 0.15;    ///< by which part pairs may be lowered whose places cover more than theirs
 
 }  // namespace
 
@@ -62,6 +63,8 @@ std::vector<double> SeedCollector::mend(const std::function<bool(const Vec3& see
                !task_.wall.between(given[pair].plus, plus) && !task_.wall.between(given[pair].minus, minus);
     };
     task.linked = linked;
+    const bool bounded = std::ranges::any_of(task_.bounds, [](char bound) { return bound != 0; });
+    task.lower = bounded ? 1 : last_resort_lower;  // seeds beside ground and walls shape where the model ends
     const SliversMended mended = mend_slivers(pairs, task, task_.frame, task_.poll);
     places_.clear();
     std::vector<std::size_t> next(task_.surface_count, 0);

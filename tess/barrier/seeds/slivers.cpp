@@ -30,7 +30,6 @@ using Cell = Delaunay::Cell_handle;
 using Corners = std::array<std::uint32_t, 4>;  ///< sites, ascending
 
 constexpr double flat_deg = 1.1;  ///< a degree, and a little for rounding
-constexpr double lower = 2.5;     ///< times the freedom of heights, as a last resort
 constexpr std::uint64_t rounds = last_resort_from / 8 + 10;
 constexpr std::uint64_t tries = 8;  ///< for each sliver in a round
 
@@ -211,7 +210,7 @@ class Mender {
         const auto random = [&](std::uint64_t which) { return random_share(mixed_key(4 * number + which) ^ pair); };
         MovablePair result = given_[pair];
         const Vec3 middle = 0.5 * (result.plus + result.minus);
-        const double height = result.height * (number < last_resort_from ? 1 : lower);
+        const double height = result.height * (number < last_resort_from ? 1 : task_.lower);
         const Vec3 half = (1 - height * random(0)) * (0.5 * (result.plus - result.minus));
         const Vec3 normal = unit(half);
         const Vec3 level = std::abs(normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};

@@ -65,6 +65,7 @@ struct SliverTask {
     SliverRule rule;
     /// May the pair, of this number, be moved to these places? They are snapped to the frame.
     std::function<bool(std::size_t pair, const Vec3& plus, const Vec3& minus)> may_move;
+    double lower = 1;      ///< times their freedom pairs may be lowered as a last resort
     LinkedPairs linked{};  ///< what becomes of pairs without freedom of their own; may be empty
 };
 

@@ -59,7 +59,55 @@ void require_file(const Source& source, const std::string& path) {
 bool looks_like_text_table(const std::string& head) {
     const std::size_t first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     return classify(head) == Content::text && first != std::string::npos && head[first] != '<' && head[first] != '{' &&
-           !head.starts_with("GOCAD");
+           !head.starts_with("[{") && !head.starts_with("GOCAD") && !head.starts_with("# vtk DataFile") &&
+           !head.starts_with("%PDF") && !head.starts_with("$MeshFormat");
+}
+
+/// What a file is that no driver reads, and what to do with it; empty: nobody knows.
+std::string stranger(const std::string& path, const std::string& head) {
+    const std::string extension = CPLGetExtension(path.c_str());
+    const auto named = [&](const char* other) { return EQUAL(extension.c_str(), other); };
+    if (head.starts_with("PK\x03\x04")) {
+        const std::string inside = "/vsizip/" + path;
+        const CPLStringList names(VSIReadDirRecursive(inside.c_str()));
+        std::string list;
+        for (int i = 0; i < std::min(names.Count(), 5); ++i) {
+            list += (list.empty() ? "" : ", ") + to_utf8(names[i]);
+        }
+        return list.empty() ? ""
+                            : "is a zip archive; name a file in it, as " + inside + "/" + to_utf8(names[0]) +
+                                  " (it holds " + list + (names.Count() > 5 ? ", …)" : ")");
+    }
+    if (head.starts_with("\x1F\x8B")) {
+        return "is compressed by gzip; name it /vsigzip/" + path;
+    }
+    if (head.starts_with("%PDF")) {
+        return "is a PDF; export its table as CSV or XLSX";
+    }
+    if (head.find("Standard Jet DB") < 40 || head.find("Standard ACE DB") < 40) {
+        return "is an Access database; export its tables as CSV or XLSX";
+    }
+    if (head.starts_with("AC10") && named("dwg")) {
+        return "is a DWG; save it as DXF with 3DFACEs or polyface meshes";
+    }
+    if (head.find("<kml") != std::string::npos || head.find("<gpx") != std::string::npos ||
+        head.find("<gml") != std::string::npos || head.find("opengis.net/gml") != std::string::npos) {
+        return "is XML of maps (KML, GPX, GML), which is not read; convert it: ogr2ogr out.gpkg " +
+               to_utf8(CPLGetFilename(path.c_str()));
+    }
+    if (head.find("<LandXML") != std::string::npos) {
+        return "is LandXML, which is not read; export its surface as DXF (3DFACE), OBJ or STL";
+    }
+    if (head.find("<VTKFile") != std::string::npos || head.starts_with("# vtk DataFile")) {
+        return "is a VTK file that is none of triangles; save its surface as VTP";
+    }
+    if (head.starts_with("glTF") || named("gltf")) {
+        return "is glTF, which is written and not read; export OBJ, PLY or STL";
+    }
+    if (head.starts_with("$MeshFormat")) {
+        return "is a Gmsh mesh, which is written and not read; save it as STL or PLY";
+    }
+    return "";
 }
 
 Dataset try_open(const std::string& path, const Source& source) {
@@ -152,6 +200,9 @@ Dataset open_vector(const Source& source) {
     Dataset dataset = try_open(source.path, source);
     if (!dataset && file && path == source.path && looks_like_text_table(head)) {
         dataset = try_open("CSV:" + path, source);
+    }
+    if (const std::string what = dataset ? "" : stranger(path, head); !what.empty()) {
+        throw InputError(source.describe() + ": " + what);
     }
     if (!dataset) {
         throw InputError(

@@ -37,6 +37,9 @@ std::pair<std::string, std::string> split_unit(const std::string& header) {
 /// A column that a spreadsheet or a library named for want of a name: a running number more often than a measurement.
 bool is_unnamed(const std::string& header) {
     const std::string name = lower_case(header);
+    if (name.empty()) {
+        return true;
+    }
     const bool generated = name.starts_with("unnamed: ") || name.starts_with("field");
     return generated && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
 }

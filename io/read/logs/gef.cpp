@@ -123,6 +123,9 @@ class GefReader {
             table_.add_column(column.name.empty() ? fmt::format("column {}", i) : column.name, column.unit);
         }
         numbers_ = static_cast<std::size_t>(last);
+        if (report_.find("DISS") != std::string::npos) {
+            throw InputError(file_ + ": a GEF dissipation test: pressures over time at one depth, no log by depth");
+        }
         bore_ = report_.find("BORE") != std::string::npos;
         if (bore_) {
             for (const char* name : {"SOIL", "TEXT_2", "TEXT_3", "TEXT_4"}) {

@@ -222,7 +222,8 @@ void LasRows::add_wrapped(std::int64_t number, std::uint64_t bytes) {
 
 void LasRows::add(std::string_view line, std::int64_t number, std::uint64_t bytes) {
     const std::string_view text = trimmed(line);
-    if (open_.empty() && (text.empty() || text.front() == '#')) {
+    constexpr std::string_view end_of_file = "\x1A";  // of DOS
+    if (open_.empty() && (text.empty() || text.front() == '#' || text == end_of_file)) {
         return;
     }
     if (delimiter_ != ' ' && (!open_.empty() || line.find('"') != std::string_view::npos)) {

@@ -211,6 +211,10 @@ class Reader {
             WellFile& file = well.file;
             if (file.collars.rows() > 0) {
                 add_own_collars(well);
+            } else if (well.for_boreholes && result_.collars.empty() && file.format.starts_with("AGS")) {
+                throw InputError(well.source.path +
+                                 ": none of its holes has a place (no group LOCA or HOLE with coordinates); name a "
+                                 "collar table with `boreholes`, and this file with `logs`");
             }
             for (auto* tables : {&file.surveys, &file.logs}) {
                 for (Table& table : *tables) {

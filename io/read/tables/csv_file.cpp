@@ -14,6 +14,7 @@
 #include "io/base/parse_number.hpp"
 #include "io/base/text_lines.hpp"
 #include "io/read/tables/csv_splitter.hpp"
+#include "io/read/tables/geo_eas.hpp"
 #include "io/read/tables/header_rows.hpp"
 
 namespace terratet {
@@ -58,6 +59,32 @@ std::vector<std::string_view> first_lines(std::string_view head) {
     return lines;
 }
 
+/// Without no-break blanks, narrow ones, and marks of no width at either end.
+std::string without_wide_blanks(std::string text) {
+    static constexpr std::array<std::string_view, 6> blanks{"\xC2\xA0",     "\xE2\x80\xAF", "\xE2\x80\x89",
+                                                            "\xE2\x80\x8B", "\xEF\xBB\xBF", " "};
+    for (bool again = true; again;) {
+        again = false;
+        for (const std::string_view blank : blanks) {
+            if (text.starts_with(blank)) {
+                text.erase(0, blank.size());
+                again = true;
+            } else if (text.ends_with(blank)) {
+                text.resize(text.size() - blank.size());
+                again = true;
+            }
+        }
+    }
+    return text;
+}
+
+/// A header that a spreadsheet broke into lines.
+std::string one_line(std::string text) {
+    std::erase(text, '\r');
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
 void append_record(Table& table, const Cells& cells) {
     for (std::size_t column = 0; column < table.cells.size(); ++column) {
         const std::string_view cell = column < cells.size() ? cells[column] : std::string_view{};
@@ -65,7 +92,7 @@ void append_record(Table& table, const Cells& cells) {
         if (is_ascii(text)) {
             table.cells[column].push_back(text);
         } else {
-            table.cells[column].push_back(to_utf8(text));
+            table.cells[column].push_back(without_wide_blanks(to_utf8(text)));
         }
     }
 }
@@ -74,8 +101,9 @@ void append_record(Table& table, const Cells& cells) {
 std::vector<std::string> column_names(const Cells& cells, bool header) {
     std::vector<std::string> names;
     for (std::size_t column = 0; column < cells.size(); ++column) {
-        names.push_back(header ? std::string(without_formula_mark(to_utf8(cells[column])))
-                               : "field_" + std::to_string(column + 1));
+        names.push_back(header
+                            ? one_line(std::string(without_formula_mark(without_wide_blanks(to_utf8(cells[column])))))
+                            : "field_" + std::to_string(column + 1));
     }
     return names;
 }
@@ -123,6 +151,9 @@ class TableBuilder {
             first_longer_ = longer_++ == 0 ? line : first_longer_;
         }
     }
+
+    /// Columns that stand in no record.
+    void set_columns(std::vector<std::string> names) { columns_ = std::move(names); }
 
     void note(std::string text) { table_.notes.push_back(std::move(text)); }
 
@@ -236,11 +267,30 @@ struct CsvFile::Impl {
     std::size_t used = 0;  ///< of the first ones
 
     Impl(const std::string& path, const CsvOptions& options) : splitter(path), builder(path, options) {
+        if (auto geo_eas = options.header ? std::nullopt : geo_eas_header(splitter.head())) {
+            begin_geo_eas(*geo_eas, path);
+            return;
+        }
         const char said = said_separator(splitter.head());
         splitter.set_separator(options.separator != 0 ? options.separator
                                : said != 0            ? said
                                                       : separator_of(splitter.head()));
         first = first_records(splitter, said != 0, options, path, builder);
+    }
+
+    void begin_geo_eas(GeoEasHeader& header, const std::string& path) {
+        builder.note(fmt::format("{}: is a table of GSLIB (Geo-EAS): {} columns named above the numbers", path,
+                                 header.columns.size()));
+        builder.set_columns(std::move(header.columns));
+        splitter.set_separator('\n');  // lines of the header are one cell each
+        Cells cells;
+        while (splitter.next(cells)) {
+            if (splitter.line() == header.lines) {
+                break;
+            }
+        }
+        const std::string_view data = splitter.head().substr(0, splitter.head().find('\n'));
+        splitter.set_separator(data.find(',') == std::string_view::npos ? ' ' : ',');
     }
 
     /// Adds up to `most` records to the table; false: the text is at its end.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/base/parse_number.hpp"
+#include "io/read/tables/cell_forms.hpp"
 
 namespace terratet {
 namespace {
@@ -279,12 +280,33 @@ TextColumn restyled(const TextColumn& column, NumberStyle style) {
     return result;
 }
 
+/// Brings numbers in other forms to plain ones; false: there are none.
+bool undress(Table& table, std::size_t column) {
+    PlainColumn plain = plain_column(table.cells[column]);
+    if (plain.forms.empty()) {
+        return false;
+    }
+    for (const std::string& form : plain.forms) {
+        table.notes.push_back(fmt::format("{}: column {}: {}", table.file, table.columns[column], form));
+    }
+    if (!plain.unit.empty()) {
+        table.stated.units.resize(table.columns.size());
+        std::string& unit = table.stated.units[column];
+        unit = unit.empty() ? plain.unit : unit;
+    }
+    table.cells[column] = std::move(plain.cells);
+    return true;
+}
+
 }  // namespace
 
 void accept_number_styles(Table& table, int id_column) {
     std::vector<Evidence> evidence;
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
         evidence.push_back(static_cast<int>(column) == id_column ? Evidence{} : evidence_of(table.cells[column]));
+        if (evidence.back().numbers < evidence.back().filled && undress(table, column)) {
+            evidence.back() = evidence_of(table.cells[column]);
+        }
     }
     const Proofs proofs(evidence);
     std::map<NumberStyle, std::string> names;

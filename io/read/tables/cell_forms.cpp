@@ -11,16 +11,13 @@
 
 #include "io/base/parse_number.hpp"
 #include "io/base/text_lines.hpp"
-#include "io/read/tables/number_style.hpp"
 
 namespace terratet {
 namespace {
 
 constexpr std::string_view minus = "\xE2\x88\x92";
 
-bool is_number(std::string_view text) {
-    return styles_of(text) != 0;
-}
+using IsNumber = bool (*)(std::string_view);
 
 /// Could a number begin here? Words mostly cannot, and cost nothing.
 bool may_begin_number(std::string_view text) {
@@ -85,7 +82,7 @@ std::string_view without_uncertainty(std::string_view text) {
 }
 
 /// The unit at the end of a number, and its length; empty: none that is known.
-std::string_view unit_at_end(std::string_view text) {
+std::string_view unit_at_end(std::string_view text, IsNumber is_number) {
     static constexpr std::array<std::string_view, 38> units{
         "%",     "g/t",  "gpt", "oz/t",   "ppm",  "ppb", "mg/kg", "mg/l", "mg/L", "ug/l", "µg/l",  "kg/m3", "t/m3",
         "g/cm3", "g/cc", "kPa", "MPa",    "GPa",  "bar", "°C",    "m/s",  "cm/s", "m/d",  "ohm.m", "gAPI",  "API",
@@ -108,10 +105,10 @@ struct Form {
     const char* what = nullptr;
 };
 
-Form form_of(std::string_view cell) {
+Form form_of(std::string_view cell, IsNumber is_number) {
     Form form{std::string(cell)};
     const auto take = [&](std::string text, const char* what) {
-        if (text != form.text && (is_number(text) || !unit_at_end(text).empty())) {
+        if (text != form.text && (is_number(text) || !unit_at_end(text, is_number).empty())) {
             form.text = std::move(text);
             form.what = what;
         }
@@ -120,7 +117,7 @@ Form form_of(std::string_view cell) {
     take(std::string(without_uncertainty(form.text)), "uncertainties (±) left out");
     take(with_exponent(replaced(form.text, minus, "-")), "powers of ten read as exponents");
     take(without_fortran(form.text), "Fortran's exponents (D) read as such");
-    if (const std::string_view unit = unit_at_end(form.text); !unit.empty()) {
+    if (const std::string_view unit = unit_at_end(form.text, is_number); !unit.empty()) {
         form.unit = unit;
     }
     return form;
@@ -128,7 +125,7 @@ Form form_of(std::string_view cell) {
 
 }  // namespace
 
-PlainColumn plain_column(const TextColumn& column) {
+PlainColumn plain_column(const TextColumn& column, IsNumber is_number) {
     std::map<std::string, std::size_t> units;
     std::map<std::string, std::size_t> forms;
     std::map<std::size_t, Form> dressed;
@@ -138,7 +135,7 @@ PlainColumn plain_column(const TextColumn& column) {
         if (is_number(cell)) {
             ++numbers;
         } else if (may_begin_number(cell)) {
-            Form form = form_of(cell);
+            Form form = form_of(cell, is_number);
             units[form.unit] += form.unit.empty() ? 0 : 1;
             forms[form.what ? form.what : ""] += form.what ? 1 : 0;
             if (form.what || !form.unit.empty()) {

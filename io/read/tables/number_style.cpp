@@ -282,7 +282,7 @@ TextColumn restyled(const TextColumn& column, NumberStyle style) {
 
 /// Brings numbers in other forms to plain ones; false: there are none.
 bool undress(Table& table, std::size_t column) {
-    PlainColumn plain = plain_column(table.cells[column]);
+    PlainColumn plain = plain_column(table.cells[column], [](std::string_view cell) { return styles_of(cell) != 0; });
     if (plain.forms.empty()) {
         return false;
     }

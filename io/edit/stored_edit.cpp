@@ -8,7 +8,7 @@
 #include <map>
 
 #include "io/edit/stored_rows.hpp"
-#include "io/model/current_time.hpp"
+#include "io/base/current_time.hpp"
 #include "io/model/model_guard.hpp"
 #include "io/model/model_rows.hpp"
 #include "io/model/row_order.hpp"

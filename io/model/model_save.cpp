@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "io/base/current_time.hpp"
 #include "io/base/output_file.hpp"
-#include "io/model/current_time.hpp"
 #include "io/model/model_rows.hpp"
 #include "io/model/model_schema.hpp"
 #include "io/model/model_styles.hpp"
@@ -184,8 +184,7 @@ void save_in_file(const std::string& path, const Model& model, const JournalEntr
     const SideFiles side_files{file.temporary_path()};
     unlink(file.temporary_path().c_str());  // the driver insists on making it
     const CreationSettings settings;
-    const std::string time = current_time_text("%Y-%m-%dT%H:%M:%S.000Z");
-    const GdalOption now("OGR_CURRENT_DATE", time.c_str());
+    const GeoPackageTime now;
     {
         GdalScope scope;
         GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
@@ -196,7 +195,7 @@ void save_in_file(const std::string& path, const Model& model, const JournalEntr
         }
         write_transaction(dataset, scope, path, model, entry, true);
     }
-    fill(file.temporary_path(), path, model, entry, time);
+    fill(file.temporary_path(), path, model, entry, now.text());
     if (options.spatial_index) {
         write_spatial_indices(file.temporary_path(), path);
     }

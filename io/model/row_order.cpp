@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/model/current_time.hpp"
+#include "io/base/current_time.hpp"
 #include "io/model/model_schema.hpp"
 #include "tess/error.hpp"
 

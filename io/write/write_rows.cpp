@@ -9,6 +9,7 @@
 #include <map>
 
 #include "io/base/csv_text.hpp"
+#include "io/base/current_time.hpp"
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/gdal_scope.hpp"
 #include "io/base/lower_case.hpp"
@@ -146,6 +147,7 @@ class OgrFile final : public RowSink {
     }
 
     GdalScope scope_;
+    GeoPackageTime now_;
     std::string path_;
     std::string layer_name_;
     OutputFile file_;

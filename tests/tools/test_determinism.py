@@ -68,6 +68,11 @@ class Determinism(Case):
             shutil.copy(self.folder / "m.gpkg", self.folder / name)
         self.assertTrue((self.folder / "a").read_bytes() == (self.folder / "b").read_bytes())
         self.assertIn("2023-11-14T22:13:20Z", self.succeed("info", "m.gpkg").stdout)
+        files = {"query": ("query", "m.gpkg", "region", "-o"), "surfaces": ("export", "m.gpkg", "--of", "SURFACES")}
+        for name, command in files.items():
+            for copy in ("a", "b"):
+                self.succeed(*command, f"{name}-{copy}.gpkg", environment=environment)
+            self.assertTrue((self.folder / f"{name}-a.gpkg").read_bytes() == (self.folder / f"{name}-b.gpkg").read_bytes(), name)
 
 
 if __name__ == "__main__":

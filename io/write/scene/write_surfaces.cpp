@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 
+#include "io/base/current_time.hpp"
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/lower_case.hpp"
 #include "io/write/mesh_groups.hpp"
@@ -253,6 +254,7 @@ class TinFile {
     }
 
     GdalScope scope_;
+    GeoPackageTime now_;
     std::string path_;
     Dataset dataset_;
 };

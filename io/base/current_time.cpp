@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/model/current_time.hpp"
+#include "io/base/current_time.hpp"
 
 #include <cstdlib>
 #include <ctime>

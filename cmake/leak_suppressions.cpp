@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// What LeakSanitizer lets pass in every program of a sanitized build: GDAL keeps its table of drivers for the life of
-/// the process, by design. Leaks of our own stay errors.
+/// What LeakSanitizer lets pass in every program of a sanitized build: GDAL keeps its table of drivers, fontconfig its
+/// fonts for the life of the process, by design. Leaks of our own stay errors.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_options();
 
 const char* __lsan_default_suppressions()  // NOLINT(bugprone-reserved-identifier)
 {
-    return "leak:libgdal\n";
+    return "leak:libgdal\nleak:libfontconfig\n";
 }
 
 const char* __lsan_default_options()  // NOLINT(bugprone-reserved-identifier)

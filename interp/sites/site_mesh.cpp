@@ -67,7 +67,8 @@ Vec3 SiteMesh::within_tilted(const Vec3& at) const {
         const double room = away > 0 ? box.hi[i] - mean[i] : mean[i] - box.lo[i];
         part = std::abs(away) > room ? std::min(part, room / std::abs(away)) : part;
     }
-    return part < 1 ? mean + part * (foot - mean) : foot;
+    // Of sites that differ in their last bits rounding leads out of the box.
+    return box.clamped(part < 1 ? mean + part * (foot - mean) : foot);
 }
 
 double SiteMesh::openness(const Vec3& from, std::int32_t vertex) const {

@@ -40,7 +40,7 @@ bool passes(const Vec3& place, const Vec3& direction, const Box3& box, double mo
             }
             continue;
         }
-        const auto [in, out] = std::minmax(lo / direction[axis], hi / direction[axis]);
+        const auto [in, out] = std::minmax({lo / direction[axis], hi / direction[axis]});
         first = std::max(first, in);
         last = std::min(last, out);
     }

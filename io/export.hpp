@@ -23,6 +23,7 @@
 /// | .tif | GeoTIFF or COG, a band a slice | voxels |
 /// | .nc | CF netCDF cube | voxels |
 /// | .csv as BLOCKS | block model | voxels |
+/// | .json as TILES | 3D Tiles of the scene, in a folder | write_surface_tiles |
 /// | .json as VOXELTILES | 3D Tiles of voxels, in a folder | voxels |
 
 #include <array>
@@ -89,6 +90,7 @@ OutputRecord write_uge(const ModelView& view, const std::string& path, const Exp
 OutputRecord write_ugi(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_ogs(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_surfaces(const ModelView& view, const std::string& path, const ExportOptions& options);
+OutputRecord write_surface_tiles(const ModelView& view, const std::string& path, const ExportOptions& options);
 OutputRecord write_csv(const ModelView& view, const std::string& path, const ExportOptions& options);
 
 /// Of each region within the extent, cut exactly at its planes, in the cube of the model's unit. Gap cells are no

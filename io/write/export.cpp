@@ -40,6 +40,7 @@ constexpr Format formats[] = {
     {"GTIFF", ".tiff", nullptr},
     {"COG", ".cog", nullptr, false},
     {"NETCDF", ".nc", nullptr},
+    {"TILES", ".tiles", write_surface_tiles, false},
     {"CSV", ".csv", write_csv},
     {"BLOCKS", ".blocks", nullptr, false},
     {"VOXELTILES", ".voxeltiles", nullptr, false},

@@ -154,5 +154,112 @@ class Tiles(Case):
         self.assertLess(sum(map(len, of["c"].values())), sum(map(len, of["a"].values())) / 2)
 
 
+def numbers(document, body, index):
+    """Of an accessor, by rows."""
+    accessor = document["accessors"][index]
+    view = document["bufferViews"][accessor["bufferView"]]
+    letter = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}[accessor["componentType"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+    size = width * struct.calcsize(letter)
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    return [struct.unpack_from(f"<{width}{letter}", body, start + n * view.get("byteStride", size)) for n in range(accessor["count"])]
+
+
+def table(document, body):
+    """Rows of the property table."""
+    table = document["extensions"]["EXT_structural_metadata"]["propertyTables"][0]
+    of_class = document["extensions"]["EXT_structural_metadata"]["schema"]["classes"][table["class"]]["properties"]
+    views = document["bufferViews"]
+    rows = [{} for _ in range(table["count"])]
+    for name, column in table["properties"].items():
+        start = views[column["values"]].get("byteOffset", 0)
+        if of_class[name]["type"] == "STRING":
+            ends = struct.unpack_from(f"<{len(rows) + 1}I", body, views[column["stringOffsets"]].get("byteOffset", 0))
+            values = [body[start + a:start + b].decode() for a, b in zip(ends, ends[1:])]
+        else:
+            values = struct.unpack_from(f"<{len(rows)}f", body, start)
+        for row, value in zip(rows, values):
+            if value != of_class[name]["noData"]:
+                row[name] = value
+    return rows
+
+
+class SurfaceTiles(Case):
+    def tiles(self, tile, folder, above=None):
+        """(tile, GLB, depth) of all below the root."""
+        for child in tile.get("children", []):
+            yield child, read_glb(folder / child["content"]["uri"]), tile
+            yield from self.tiles(child, folder, tile)
+
+    def test_a_tileset_of_the_scene_has_levels_whose_tiles_lie_in_their_boxes_and_tell_what_is_picked(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
+        self.succeed("export", "m.gpkg", "out/tileset.json", "s.glb", "-q")
+        tileset = json.loads((self.folder / "out/tileset.json").read_text())
+        self.assertEqual(tileset["asset"]["version"], "1.1")
+        root, extras = tileset["root"], tileset["extras"]
+        self.assertEqual(root["refine"], "ADD")
+        self.assertEqual(root["transform"], extras["enu_to_ecef"])
+        whole, _ = read_glb(self.folder / "s.glb")
+        names = {node["name"] for node in whole["nodes"]}
+        leaves, kinds, levels, used = set(), {}, 0, {root["content"]["uri"]}
+        for tile, (document, body), parent in self.tiles(root, self.folder / "out"):
+            used.add(tile["content"]["uri"])
+            self.assertEqual(tile["refine"], "REPLACE")
+            self.assertLessEqual(tile["geometricError"], parent["geometricError"])
+            self.assertEqual(tile["geometricError"] == 0, "children" not in tile)
+            self.assertAlmostEqual(tile["geometricError"], max(tile["extras"]["deviation"], extras["color_metres"] * tile["extras"]["color_deviation"]))
+            box, outer = (t["boundingVolume"]["box"] for t in (tile, parent))
+            rows = table(document, body)
+            for axis in range(3):
+                self.assertLessEqual(abs(box[axis] - outer[axis]) + box[3 + 4 * axis], outer[3 + 4 * axis] * 1.000001)
+            for node in document["nodes"]:
+                primitive = document["meshes"][node["mesh"]]["primitives"][0]
+                for x, y, z in numbers(document, body, primitive["attributes"]["POSITION"]):
+                    for axis, value in enumerate((x, -z, y)):
+                        self.assertLessEqual(abs(value - box[axis]), box[3 + 4 * axis])
+                row, = set(numbers(document, body, primitive["attributes"]["_FEATURE_ID_0"]))
+                facts = rows[row[0]]
+                self.assertIn(facts["name"], node["name"])
+                kinds.setdefault(facts["kind"], []).append(facts)
+                if "children" not in tile:
+                    leaves.add(node["name"])
+            levels += "children" in tile
+        self.assertGreaterEqual(levels, 1)
+        self.assertEqual(leaves | {"extent"}, names)
+        self.assertTrue({"section", "isosurface", "borehole", "fault"} <= kinds.keys(), kinds.keys())
+        with open(twin_inputs()[1], newline="") as file:
+            collars = {row["id"] if "id" in row else next(iter(row.values())) for row in csv.DictReader(file)}
+        self.assertEqual({facts["id"] for facts in kinds["borehole"]}, collars)
+        self.assertTrue(all(facts["length"] > 100 for facts in kinds["borehole"]))
+        self.assertTrue(all(facts["property"] == "K" and facts["value"] > 0 for facts in kinds["isosurface"]))
+        self.assertTrue(all(0 < facts["dip"] <= 90 for facts in kinds["fault"]))
+        self.assertTrue(all("dip" not in facts and "length" not in facts for facts in kinds["section"]))
+        there = {str(p.relative_to(self.folder / "out")) for p in (self.folder / "out/tileset").rglob("*.glb")}
+        self.assertEqual(there, used)
+
+    def test_R6_the_scenes_tiles_have_the_same_bytes_at_any_number_of_threads_and_replace_only_tiles(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg")
+        self.succeed("export", "m.gpkg", "a/tileset.json", "--threads", 1, "-q")
+        self.succeed("export", "m.gpkg", "b/tileset.json", "--threads", 2, "-q")
+        self.succeed("export", "m.gpkg", "c/tileset.json", "--compress", "-q")
+        self.succeed("export", "m.gpkg", "b/tileset.json", "--overwrite", "-q")
+        of = {name: {p.relative_to(self.folder / name): p.read_bytes() for p in (self.folder / name).rglob("*") if p.is_file()}
+              for name in "abc"}
+        self.assertEqual(of["a"], of["b"])
+        self.assertEqual(of["a"].keys(), of["c"].keys())
+        self.assertLess(sum(map(len, of["c"].values())), sum(map(len, of["a"].values())) * 0.6)
+        self.write("b/tileset/mine.txt", "mine")
+        self.fail_with(1, "export", "m.gpkg", "b/tileset.json", "--overwrite", "-q", saying="mine.txt")
+        self.fail_with(2, "export", "m.gpkg", "-", "--of", "TILES", saying="standard output")
+
+    def test_a_model_without_a_place_on_the_globe_has_its_tiles_at_its_own_coordinates(self):
+        self.write("s.csv", "x,y,z,v\n" + "".join(f"{1000 + 10 * i},{2000 + 10 * j},{-10 * k},{i + j * k}\n"
+                                                 for i in range(4) for j in range(4) for k in range(4)))
+        self.succeed("convert", "--samples", "s.csv", "-s_srs", "local", "--lmin", "10", "t.json", "-q")
+        tileset = json.loads((self.folder / "t.json").read_text())
+        x, y, z = tileset["root"]["transform"][12:15]
+        self.assertLess(max(abs(x - 1015), abs(y - 2015), abs(z + 15)), 10)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -126,11 +126,8 @@ OutputRequest parse_output(const std::string& text) {
 OutputRequest parse_output(const std::string& text, const ExportArguments& arguments) {
     OutputRequest output = parse_output(text);
     const bool tileset = output.format.empty() && arguments.format.empty() && upper(output.path).ends_with(".JSON");
-    if (tileset && !arguments.voxels) {
-        throw UsageError(fmt::format("{}: only tilesets of voxels are written so far, with --voxels", output.path));
-    }
     if (tileset) {
-        output.format = "VOXELTILES";
+        output.format = arguments.voxels ? "VOXELTILES" : "TILES";
     }
     return output;
 }
@@ -144,7 +141,7 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
               "instead of the extension's: " + export_format_names() +
                   "; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",
               &a.format},
-             {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES", &a.voxels},
+             {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES, not of the scene", &a.voxels},
              {{"tr", "voxel-size"},
               "LENGTH[,LENGTH,LENGTH]",
               "of voxels; by default about a 128th of the longest side",

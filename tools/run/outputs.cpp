@@ -129,7 +129,7 @@ bool is_voxels(const OutputRequest& output, const ExportArguments& arguments) {
 
 /// What makes a folder full of files may make the folder that they are in too.
 void make_tileset_folder(const OutputRequest& output, const std::string& format) {
-    const bool tiles = format == "VOXELTILES";
+    const bool tiles = format == "VOXELTILES" || format == "TILES";
     if (tiles && output.path == standard_output) {
         throw UsageError("-: a tileset is a folder of files, which standard output cannot take");
     }

@@ -7,6 +7,7 @@
 
 #include "io/base/crs.hpp"
 #include "io/base/earth_centred.hpp"
+#include "io/base/vertical_crs.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -16,29 +17,6 @@ using Json = TilesPlace::Json;
 
 Vec3 unit(const Vec3& v) {
     return 1 / std::sqrt(dot(v, v)) * v;
-}
-
-/// "EPSG:3067" of "EPSG:3067 ETRS89 / TM35FIN(E,N)".
-std::string code_of(const Crs& crs) {
-    return crs.name.substr(0, crs.name.find(' '));
-}
-
-bool has_heights(const Crs& crs) {
-    return crs.wkt.starts_with("COMPOUNDCRS") || crs.wkt.find("CS[ellipsoidal,3]") != std::string::npos ||
-           crs.wkt.find("CS[Cartesian,3]") != std::string::npos;
-}
-
-Crs with_vertical(const Crs& crs, const std::string& vertical) {
-    if (vertical.empty()) {
-        return crs;
-    }
-    const std::string number = vertical.starts_with("EPSG:") ? vertical.substr(5) : vertical;
-    const std::string code = code_of(crs);
-    if (!code.starts_with("EPSG:")) {
-        throw UsageError("VERTICAL_SRS: goes with a coordinate system that has an EPSG code, and '" + crs.name +
-                         "' has none; give a compound one instead");
-    }
-    return parse_crs(code + "+" + number);
 }
 
 /// Earth-centred, NaN where PROJ knows no place.
@@ -117,10 +95,8 @@ TilesPlace place_tiles(const VoxelGrid& grid, const std::string& vertical) {
             put_axes(grid, transform, place);
         }
         place.remark = transform.remark();
-        if (!has_heights(crs)) {
-            place.remark += std::string(place.remark.empty() ? "" : "; ") +
-                            "heights are taken as ellipsoidal, since the coordinate system says none: "
-                            "-co VERTICAL_SRS=EPSG:… tells theirs";
+        if (const std::string heights = heights_remark(given, vertical); !heights.empty()) {
+            place.remark += (place.remark.empty() ? "" : "; ") + heights;
         }
         const double voxel = std::min({grid.spacing.x * place.metres.x, grid.spacing.y * place.metres.y});
         if (place.on_globe && !place.region && place.deviation > voxel / 2) {

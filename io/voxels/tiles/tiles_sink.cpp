@@ -16,6 +16,7 @@
 #include "io/voxels/tiles/fill_voids.hpp"
 #include "io/voxels/tiles/subtrees.hpp"
 #include "io/voxels/tiles/tile_content.hpp"
+#include "io/voxels/tiles/tiles_folder.hpp"
 #include "io/voxels/tiles/tiles_place.hpp"
 #include "io/voxels/tiles/voxel_pyramid.hpp"
 #include "io/voxels/voxel_sink.hpp"
@@ -71,7 +72,7 @@ class TilesSink final : public VoxelSink {
         : grid_(grid),
           path_(path),
           file_(path, options.overwrite),
-          folder_((fs::path(path).replace_extension()).string(), options.overwrite && is_ours(path)),
+          folder_(tiles_folder(path), options.overwrite && holds_only_tiles(path)),
           compress_(options.compress.value_or(false)),
           place_(place_tiles(grid, options.vertical_crs)),
           tiling_(grid.size),
@@ -117,7 +118,7 @@ class TilesSink final : public VoxelSink {
         pyramid_.coarsen({});
         const auto classes = tile_classes(grid_.layers, grid_.layers.size(), own_mask_, low_, high_);
         Json others = Json::array();
-        const std::string name = fs::path(path_).stem().string();
+        const std::string name = fs::path(tiles_folder(path_)).filename().string();
         for (const TileClass& tile_class : classes) {
             const std::string inside = tile_class.folder.empty() ? "" : tile_class.folder + "/";
             const TileTree tree = write_tiles(tile_class, inside);
@@ -148,20 +149,6 @@ class TilesSink final : public VoxelSink {
         }
         result.push_back(Merging::mean);
         return result;
-    }
-
-    /// The folder will be replaced: it has to be one of tiles.
-    static bool is_ours(const std::string& path) {
-        const fs::path folder = fs::path(path).replace_extension();
-        std::error_code error;
-        for (const auto& entry : fs::directory_iterator(folder, error)) {
-            const std::string name = entry.path().filename().string();
-            if (name != "content" && name != "subtrees" && !fs::exists(entry.path() / "tileset.json")) {
-                throw Error("cannot write " + path + ": its tiles go into the folder " + folder.string() +
-                            ", where there is '" + name + "', which is no tileset's; choose another name");
-            }
-        }
-        return true;
     }
 
     /// Into the scale that is stored; returns how many have a value.

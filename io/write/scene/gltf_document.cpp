@@ -23,12 +23,9 @@ Box3 box_of(const Scene& scene) {
 
 class Document {
   public:
-    Document(const Scene& scene, const Model& model, bool compress)
-        : scene_(scene),
-          model_(model),
-          compress_(compress),
-          buffers_(compress, box_of(scene)),
-          attributes_(attribute_names(model.properties)) {
+    Document(std::span<const ScenePart> parts, std::span<const PartFacts> facts, const Box3& box, const Model& model,
+             bool compress)
+        : compress_(compress), buffers_(compress, box), attributes_(attribute_names(model.properties)) {
         document_["asset"] = {{"version", "2.0"}, {"generator", "Terratet"}};
         document_["extensionsUsed"] = Json::array();
         document_["scene"] = 0;
@@ -36,10 +33,110 @@ class Document {
         for (const char* name : {"nodes", "meshes", "materials"}) {
             document_[name] = Json::array();
         }
-        tables_ = add_feature_tables(document_, buffers_, scene, model);
+        std::vector<PartFacts> rows;
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            if (!parts[p].triangles.empty()) {
+                rows.push_back(facts[p]);
+            }
+        }
+        if (!rows.empty()) {
+            add_feature_table(document_, buffers_, rows);
+        }
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            add(parts[p], facts[p]);
+        }
     }
 
-    void add(const ScenePart& part) {
+    /// Of all: places, corners, blocks and values.
+    Json cells(const Scene& scene) {
+        const SceneCells& cells = scene.cells;
+        std::vector<float> places;
+        for (const Vec3& p : cells.mesh.points) {
+            const Vec3 at = scene.frame.position(p);
+            places.insert(places.end(), {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)});
+        }
+        std::vector<std::uint32_t> corners;
+        std::vector<std::uint32_t> region;
+        for (std::size_t c = 0; c < cells.mesh.cells.size(); ++c) {
+            if (cells.in_gap[c] == 0) {
+                const auto& v = cells.mesh.cells[c];
+                corners.insert(corners.end(), v.begin(), v.end());
+                region.push_back(static_cast<std::uint32_t>(std::max(cells.mesh.region[c], -1) + 1));
+            }
+        }
+        Json entry{{"points", buffers_.numbers("cell points", places, 3)},
+                   {"corners", buffers_.integers("cell corners", corners, 4)},
+                   {"region", buffers_.integers("cell regions", region, 1)},
+                   {"extrapolation", buffers_.numbers("cell extrapolation", gltf_floats(cells.extrapolation), 1)},
+                   {"values", Json::array()}};
+        for (std::size_t p = 0; p < cells.values.size(); ++p) {
+            entry["values"].push_back(
+                buffers_.numbers("cell values " + std::to_string(p), gltf_floats(cells.values[p]), 1));
+        }
+        return entry;
+    }
+
+    /// Of all samples in boreholes: a strip log each.
+    Json intervals(const Model& model) {
+        std::vector<std::uint32_t> hole;
+        std::vector<float> depth;
+        std::vector<float> length;
+        std::vector<std::vector<double>> values(model.properties.size());
+        for (std::size_t s = 0; s < model.samples.size(); ++s) {
+            if (model.samples.borehole[s] >= 0) {
+                hole.push_back(static_cast<std::uint32_t>(model.samples.borehole[s]));
+                depth.push_back(static_cast<float>(model.samples.depth[s]));
+                length.push_back(static_cast<float>(model.samples.length[s]));
+                for (std::size_t p = 0; p < values.size(); ++p) {
+                    values[p].push_back(p < model.samples.values.size() ? model.samples.values[p][s] : missing);
+                }
+            }
+        }
+        if (hole.empty()) {
+            return {};
+        }
+        Json entry{{"hole", buffers_.integers("interval holes", hole, 1)},
+                   {"depth", buffers_.numbers("interval depths", depth, 1)},
+                   {"length", buffers_.numbers("interval lengths", length, 1)},
+                   {"values", Json::array()}};
+        for (std::size_t p = 0; p < values.size(); ++p) {
+            entry["values"].push_back(
+                buffers_.numbers("interval values " + std::to_string(p), gltf_floats(values[p]), 1));
+        }
+        return entry;
+    }
+
+    /// \param extras  of the asset; may be empty
+    GltfText finish(Json extras) {
+        if (Json above = buffers_.placement(); !above.empty() && !top_.empty()) {
+            above["name"] = "scene";
+            above["children"] = std::move(top_);
+            top_ = {document_["nodes"].size()};
+            document_["nodes"].push_back(std::move(above));
+        }
+        document_["scenes"][0]["nodes"] = top_;
+        if (!extras.empty()) {
+            document_["asset"]["extras"] = std::move(extras);
+        }
+        GltfText text;
+        text.chunk = buffers_.finish(document_);
+        if (document_.contains("extensions")) {
+            used_.insert("EXT_structural_metadata");
+        }
+        if (compress_) {
+            used_.insert({"EXT_meshopt_compression", "KHR_mesh_quantization"});
+            document_["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+        }
+        document_["extensionsUsed"] = used_;
+        if (used_.empty()) {
+            document_.erase("extensionsUsed");
+        }
+        text.document = std::move(document_);
+        return text;
+    }
+
+  private:
+    void add(const ScenePart& part, const PartFacts& facts) {
         Json primitive{{"attributes", {{"POSITION", buffers_.positions(part.positions)}}}};
         Json& attributes = primitive["attributes"];
         if (!part.normals.empty()) {
@@ -67,99 +164,14 @@ class Document {
         document_["meshes"].push_back({{"primitives", Json::array({std::move(primitive)})}});
         Json node{{"name", part.name}, {"mesh", document_["meshes"].size() - 1}};
         if (part.kind == ScenePart::Kind::block) {
-            node["extras"] = {{"volume", scene_.block_volume[static_cast<std::size_t>(part.feature)]}};
+            for (const auto& [name, number] : facts.numbers) {
+                node["extras"][name] = number;
+            }
         }
         top_.push_back(document_["nodes"].size());
         document_["nodes"].push_back(std::move(node));
     }
 
-    /// Of all: places, corners, blocks and values.
-    Json cells() {
-        const SceneCells& cells = scene_.cells;
-        std::vector<float> places;
-        for (const Vec3& p : cells.mesh.points) {
-            const Vec3 at = scene_.frame.position(p);
-            places.insert(places.end(), {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)});
-        }
-        std::vector<std::uint32_t> corners;
-        std::vector<std::uint32_t> region;
-        for (std::size_t c = 0; c < cells.mesh.cells.size(); ++c) {
-            if (cells.in_gap[c] == 0) {
-                const auto& v = cells.mesh.cells[c];
-                corners.insert(corners.end(), v.begin(), v.end());
-                region.push_back(static_cast<std::uint32_t>(std::max(cells.mesh.region[c], -1) + 1));
-            }
-        }
-        Json entry{{"points", buffers_.numbers("cell points", places, 3)},
-                   {"corners", buffers_.integers("cell corners", corners, 4)},
-                   {"region", buffers_.integers("cell regions", region, 1)},
-                   {"extrapolation", buffers_.numbers("cell extrapolation", gltf_floats(cells.extrapolation), 1)},
-                   {"values", Json::array()}};
-        for (std::size_t p = 0; p < cells.values.size(); ++p) {
-            entry["values"].push_back(
-                buffers_.numbers("cell values " + std::to_string(p), gltf_floats(cells.values[p]), 1));
-        }
-        return entry;
-    }
-
-    /// Of all samples in boreholes: a strip log each.
-    Json intervals() {
-        std::vector<std::uint32_t> hole;
-        std::vector<float> depth;
-        std::vector<float> length;
-        std::vector<std::vector<double>> values(model_.properties.size());
-        for (std::size_t s = 0; s < model_.samples.size(); ++s) {
-            if (model_.samples.borehole[s] >= 0) {
-                hole.push_back(static_cast<std::uint32_t>(model_.samples.borehole[s]));
-                depth.push_back(static_cast<float>(model_.samples.depth[s]));
-                length.push_back(static_cast<float>(model_.samples.length[s]));
-                for (std::size_t p = 0; p < values.size(); ++p) {
-                    values[p].push_back(p < model_.samples.values.size() ? model_.samples.values[p][s] : missing);
-                }
-            }
-        }
-        if (hole.empty()) {
-            return {};
-        }
-        Json entry{{"hole", buffers_.integers("interval holes", hole, 1)},
-                   {"depth", buffers_.numbers("interval depths", depth, 1)},
-                   {"length", buffers_.numbers("interval lengths", length, 1)},
-                   {"values", Json::array()}};
-        for (std::size_t p = 0; p < values.size(); ++p) {
-            entry["values"].push_back(
-                buffers_.numbers("interval values " + std::to_string(p), gltf_floats(values[p]), 1));
-        }
-        return entry;
-    }
-
-    GltfText finish(Json more) {
-        if (Json above = buffers_.placement(); !above.empty() && !top_.empty()) {
-            above["name"] = "scene";
-            above["children"] = std::move(top_);
-            top_ = {document_["nodes"].size()};
-            document_["nodes"].push_back(std::move(above));
-        }
-        document_["scenes"][0]["nodes"] = top_;
-        document_["asset"]["extras"] = gltf_extras(scene_, model_, attributes_);
-        document_["asset"]["extras"].update(more);
-        GltfText text;
-        text.chunk = buffers_.finish(document_);
-        if (document_.contains("extensions")) {
-            used_.insert("EXT_structural_metadata");
-        }
-        if (compress_) {
-            used_.insert({"EXT_meshopt_compression", "KHR_mesh_quantization"});
-            document_["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
-        }
-        document_["extensionsUsed"] = used_;
-        if (used_.empty()) {
-            document_.erase("extensionsUsed");
-        }
-        text.document = std::move(document_);
-        return text;
-    }
-
-  private:
     static std::vector<std::uint8_t> colors_of(const ScenePart& part) {
         std::vector<std::uint8_t> data;
         for (const Color& color : part.colors) {
@@ -209,27 +221,20 @@ class Document {
     }
 
     void add_feature(Json& primitive, const ScenePart& part) {
-        const int table = part.kind == ScenePart::Kind::borehole  ? tables_.holes
-                          : part.kind == ScenePart::Kind::barrier ? tables_.barriers
-                          : part.kind == ScenePart::Kind::block   ? tables_.blocks
-                                                                  : -1;
-        if (table < 0 || part.feature < 0) {
+        if (part.triangles.empty()) {
             return;
         }
-        primitive["attributes"]["_FEATURE_ID_0"] =
-            buffers_.feature_ids(part.positions.size(), static_cast<std::uint32_t>(part.feature));
+        primitive["attributes"]["_FEATURE_ID_0"] = buffers_.feature_ids(part.positions.size(), rows_++);
         primitive["extensions"]["EXT_mesh_features"]["featureIds"] =
-            Json::array({{{"featureCount", 1}, {"attribute", 0}, {"propertyTable", table}}});
+            Json::array({{{"featureCount", 1}, {"attribute", 0}, {"propertyTable", 0}}});
         used_.insert("EXT_mesh_features");
     }
 
-    const Scene& scene_;
-    const Model& model_;
     bool compress_;
     GltfBuffers buffers_;
     std::vector<std::string> attributes_;
     Json document_;
-    FeatureTables tables_;
+    std::uint32_t rows_ = 0;  ///< of the property table, so far
     std::set<std::string> used_;
     std::vector<std::size_t> top_;  ///< nodes that no other holds
 };
@@ -247,22 +252,30 @@ std::string dumped(const Json& document) {
 }  // namespace
 
 GltfText gltf_document(const Scene& scene, const Model& model, bool compress, bool with_cells) {
-    Document document(scene, model, compress);
-    for (const ScenePart& part : scene.parts) {
-        const bool cut = part.kind == ScenePart::Kind::section || part.kind == ScenePart::Kind::isosurface ||
-                         part.kind == ScenePart::Kind::block;
-        if (!with_cells || !cut) {
-            document.add(part);
+    const std::vector<PartFacts> facts = part_facts(scene, model);
+    std::vector<ScenePart> kept;
+    std::vector<PartFacts> kept_facts;
+    for (std::size_t p = 0; with_cells && p < scene.parts.size(); ++p) {
+        const ScenePart::Kind kind = scene.parts[p].kind;
+        if (kind != ScenePart::Kind::section && kind != ScenePart::Kind::isosurface && kind != ScenePart::Kind::block) {
+            kept.push_back(scene.parts[p]);
+            kept_facts.push_back(facts[p]);
         }
     }
-    Json more = Json::object();
+    Document document(with_cells ? kept : scene.parts, with_cells ? kept_facts : facts, box_of(scene), model, compress);
+    Json extras = gltf_extras(scene, model, attribute_names(model.properties));
     if (with_cells) {
-        more["cells"] = document.cells();
-        if (Json intervals = document.intervals(); !intervals.is_null()) {
-            more["intervals"] = std::move(intervals);
+        extras["cells"] = document.cells(scene);
+        if (Json intervals = document.intervals(model); !intervals.is_null()) {
+            extras["intervals"] = std::move(intervals);
         }
     }
-    return document.finish(std::move(more));
+    return document.finish(std::move(extras));
+}
+
+GltfText gltf_of_parts(std::span<const ScenePart> parts, std::span<const PartFacts> facts, const Box3& box,
+                       const Model& model, bool compress) {
+    return Document(parts, facts, box, model, compress).finish({});
 }
 
 std::string to_glb(const GltfText& text) {

@@ -46,97 +46,72 @@ Json legend(const Coloring& coloring) {
     return legend;
 }
 
-/// Columns of one property table, filled row by row.
-class Table {
-  public:
-    Table(std::string name, std::size_t rows) : name_(std::move(name)), rows_(rows) {}
-
-    template <class Get>
-    void strings(const std::string& name, GltfBuffers& buffers, Get&& get) {
-        std::string text;
-        std::vector<std::uint32_t> offsets{0};
-        for (std::size_t row = 0; row < rows_; ++row) {
-            text += get(row);
-            offsets.push_back(static_cast<std::uint32_t>(text.size()));
-        }
-        if (text.empty()) {
-            text = " ";  // no view may be empty
-        }
-        class_[name] = {{"type", "STRING"}};
-        columns_[name] = {{"values", buffers.table_column(text)},
-                          {"stringOffsets", buffers.table_column(bytes_of(offsets))}};
-    }
-    template <class Get>
-    void numbers(const std::string& name, GltfBuffers& buffers, Get&& get) {
-        std::vector<float> values;
-        for (std::size_t row = 0; row < rows_; ++row) {
-            values.push_back(static_cast<float>(get(row)));
-        }
-        class_[name] = {{"type", "SCALAR"}, {"componentType", "FLOAT32"}};
-        columns_[name] = {{"values", buffers.table_column(bytes_of(values))}};
-    }
-    int finish(Json& metadata) {
-        metadata["schema"]["classes"][name_] = {{"properties", class_}};
-        metadata["propertyTables"].push_back({{"class", name_}, {"count", rows_}, {"properties", columns_}});
-        return static_cast<int>(metadata["propertyTables"].size()) - 1;
-    }
-
-  private:
-    template <class T>
-    static std::string bytes_of(const std::vector<T>& values) {
-        return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-    }
-    std::string name_;
-    std::size_t rows_;
-    Json class_ = Json::object();
-    Json columns_ = Json::object();
-};
-
-int hole_table(Json& metadata, GltfBuffers& buffers, const Model& model) {
-    Table table("borehole", model.boreholes.size());
-    const auto collar = [&](std::size_t b) { return model.frame.to_world(model.boreholes[b].collar); };
-    table.strings("id", buffers, [&](std::size_t b) { return model.boreholes[b].id; });
-    table.numbers("collar_x", buffers, [&](std::size_t b) { return collar(b).x; });
-    table.numbers("collar_y", buffers, [&](std::size_t b) { return collar(b).y; });
-    table.numbers("collar_z", buffers, [&](std::size_t b) { return collar(b).z; });
-    table.numbers("length", buffers, [&](std::size_t b) {
-        const auto& depths = model.boreholes[b].path_depth;
-        return depths.empty() ? 0 : depths.back();
-    });
-    std::vector<std::size_t> intervals(model.boreholes.size(), 0);
-    for (const std::int32_t hole : model.samples.borehole) {
-        if (hole >= 0) {
-            ++intervals[static_cast<std::size_t>(hole)];
-        }
-    }
-    table.numbers("intervals", buffers, [&](std::size_t b) { return static_cast<double>(intervals[b]); });
-    return table.finish(metadata);
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-int barrier_table(Json& metadata, GltfBuffers& buffers, const Model& model) {
-    Table table("barrier", model.barriers.size());
-    std::vector<SurfaceStatistics> known;
-    for (const Barrier& barrier : model.barriers) {
-        Surface surface;
-        for (const Vec3& p : barrier.sheet.vertices) {
-            surface.vertices.push_back(model.frame.to_world(p));
-        }
-        surface.triangles = barrier.sheet.triangles;
-        known.push_back(statistics(surface));
-    }
-    table.strings("name", buffers, [&](std::size_t b) { return model.barriers[b].name; });
-    table.strings("kind", buffers, [&](std::size_t b) { return std::string(to_string(model.barriers[b].sheet.kind)); });
-    table.numbers("area", buffers, [&](std::size_t b) { return known[b].area; });
-    table.numbers("dip", buffers, [&](std::size_t b) { return known[b].dip_mean_deg; });
-    table.numbers("dip_direction", buffers, [&](std::size_t b) { return known[b].dip_direction_deg; });
-    return table.finish(metadata);
+template <class T>
+const T* fact(const std::vector<std::pair<std::string, T>>& facts, const std::string& name) {
+    const auto found = std::find_if(facts.begin(), facts.end(), [&](const auto& entry) { return entry.first == name; });
+    return found == facts.end() ? nullptr : &found->second;
 }
 
-int block_table(Json& metadata, GltfBuffers& buffers, const Scene& scene) {
-    Table table("block", scene.block_volume.size());
-    table.strings("name", buffers, [&](std::size_t b) { return scene.cells.region_names[b]; });
-    table.numbers("volume", buffers, [&](std::size_t b) { return scene.block_volume[b]; });
-    return table.finish(metadata);
+Json text_column(GltfBuffers& buffers, std::span<const PartFacts> rows, const std::string& name) {
+    std::string text;
+    std::vector<std::uint32_t> offsets{0};
+    for (const PartFacts& row : rows) {
+        if (const std::string* own = fact(row.texts, name)) {
+            text += *own;
+        }
+        offsets.push_back(static_cast<std::uint32_t>(text.size()));
+    }
+    if (text.empty()) {
+        text = " ";  // no view may be empty
+    }
+    return {{"values", buffers.table_column(text)}, {"stringOffsets", buffers.table_column(bytes_of(offsets))}};
+}
+
+Json number_column(GltfBuffers& buffers, std::span<const PartFacts> rows, const std::string& name) {
+    std::vector<double> values;
+    for (const PartFacts& row : rows) {
+        const double* own = fact(row.numbers, name);
+        values.push_back(own != nullptr ? *own : missing);
+    }
+    return {{"values", buffers.table_column(bytes_of(gltf_floats(values)))}};
+}
+
+void tell(PartFacts& facts, const Borehole& hole, std::size_t intervals, const Frame& frame) {
+    const Vec3 collar = frame.to_world(hole.collar);
+    facts.texts.emplace_back("id", hole.id);
+    facts.numbers = {{"collar_x", collar.x},
+                     {"collar_y", collar.y},
+                     {"collar_z", collar.z},
+                     {"length", hole.path_depth.empty() ? 0 : hole.path_depth.back()},
+                     {"intervals", static_cast<double>(intervals)}};
+}
+
+void tell(PartFacts& facts, const Barrier& barrier, const Frame& frame) {
+    Surface surface;
+    for (const Vec3& p : barrier.sheet.vertices) {
+        surface.vertices.push_back(frame.to_world(p));
+    }
+    surface.triangles = barrier.sheet.triangles;
+    const SurfaceStatistics known = statistics(surface);
+    facts.numbers = {{"area", known.area}, {"dip", known.dip_mean_deg}, {"dip_direction", known.dip_direction_deg}};
+}
+
+/// "section: E-W" is the section "E-W".
+PartFacts kind_and_name(const ScenePart& part) {
+    const std::string& whole = part.name;
+    const std::size_t colon = whole.find(": ");
+    if (part.kind == ScenePart::Kind::block) {
+        return {{{"kind", "block"}, {"name", whole}}, {}};
+    }
+    if (colon == std::string::npos) {
+        return {{{"kind", whole}, {"name", whole}}, {}};
+    }
+    return {{{"kind", whole.substr(0, colon)}, {"name", whole.substr(colon + 2)}}, {}};
 }
 
 }  // namespace
@@ -215,28 +190,54 @@ Json gltf_extras(const Scene& scene, const Model& model, const std::vector<std::
     return extras;
 }
 
-FeatureTables add_feature_tables(Json& document, GltfBuffers& buffers, const Scene& scene, const Model& model) {
-    const auto has = [&](ScenePart::Kind kind) {
-        return std::any_of(scene.parts.begin(), scene.parts.end(),
-                           [&](const ScenePart& part) { return part.kind == kind; });
-    };
-    Json metadata{{"schema", {{"id", "terratet"}, {"classes", Json::object()}}}};
-    FeatureTables tables;
-    if (has(ScenePart::Kind::borehole)) {
-        tables.holes = hole_table(metadata, buffers, model);
+std::vector<PartFacts> part_facts(const Scene& scene, const Model& model) {
+    std::vector<std::size_t> intervals(model.boreholes.size(), 0);
+    for (const std::int32_t hole : model.samples.borehole) {
+        if (hole >= 0) {
+            ++intervals[static_cast<std::size_t>(hole)];
+        }
     }
-    if (has(ScenePart::Kind::barrier)) {
-        tables.barriers = barrier_table(metadata, buffers, model);
+    std::vector<PartFacts> result;
+    for (const ScenePart& part : scene.parts) {
+        PartFacts facts = kind_and_name(part);
+        const auto which = static_cast<std::size_t>(part.feature);
+        if (part.kind == ScenePart::Kind::borehole) {
+            tell(facts, model.boreholes[which], intervals[which], model.frame);
+        } else if (part.kind == ScenePart::Kind::barrier) {
+            tell(facts, model.barriers[which], model.frame);
+        } else if (part.kind == ScenePart::Kind::block) {
+            facts.numbers = {{"volume", scene.block_volume[which]}};
+        } else if (part.kind == ScenePart::Kind::isosurface) {
+            facts.texts.emplace_back("property", part.property);
+            facts.numbers = {{"value", part.level}};
+        }
+        result.push_back(std::move(facts));
     }
-    if (has(ScenePart::Kind::block)) {
-        tables.blocks = block_table(metadata, buffers, scene);
+    return result;
+}
+
+void add_feature_table(Json& document, GltfBuffers& buffers, std::span<const PartFacts> facts) {
+    Json of_class = Json::object();
+    Json columns = Json::object();
+    for (const PartFacts& row : facts) {
+        for (const auto& [name, text] : row.texts) {
+            if (!of_class.contains(name)) {
+                of_class[name] = {{"type", "STRING"}, {"noData", ""}};
+                columns[name] = text_column(buffers, facts, name);
+            }
+        }
+        for (const auto& [name, number] : row.numbers) {
+            if (!of_class.contains(name)) {
+                of_class[name] = {{"type", "SCALAR"}, {"componentType", "FLOAT32"}, {"noData", gltf_nodata()}};
+                columns[name] = number_column(buffers, facts, name);
+            }
+        }
     }
     // No property attributes (depth and values at a borehole's vertices): CesiumJS 1.145 stops drawing unless every
     // primitive of the file has all of them. They are attributes of the vertices all the same.
-    if (!metadata["schema"]["classes"].empty()) {
-        document["extensions"]["EXT_structural_metadata"] = std::move(metadata);
-    }
-    return tables;
+    document["extensions"]["EXT_structural_metadata"] = {
+        {"schema", {{"id", "terratet"}, {"classes", {{"feature", {{"properties", of_class}}}}}}},
+        {"propertyTables", Json::array({{{"class", "feature"}, {"count", facts.size()}, {"properties", columns}}})}};
 }
 
 }  // namespace terratet

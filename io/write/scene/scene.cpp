@@ -31,7 +31,7 @@ std::vector<double> block_volumes(const SceneCells& cells) {
 
 Scene make_scene(const ModelView& view, const ExportOptions& options, ClippedCells cells) {
     const Model& model = view.model;
-    Scene scene{SceneFrame(model, options.enu ? SceneFrame::Axes::enu : SceneFrame::Axes::grid),
+    Scene scene{SceneFrame(model, options.enu ? SceneFrame::Axes::enu : SceneFrame::Axes::grid, options.vertical_crs),
                 Coloring(view, options.color_property, options.color_map),
                 scene_cells(view, options.progress, cells),
                 {},

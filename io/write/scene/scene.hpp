@@ -34,6 +34,9 @@ struct ScenePart {
     Color color{1, 1, 1};
     double opacity = 1;
     std::int64_t feature = -1;  ///< which hole, barrier or block of the model's it is
+    std::uint32_t sides = 0;    ///< of boreholes: positions are rings of so many, from one end of the tube to the other
+    std::string property;       ///< of isosurfaces
+    double level = missing;     ///< of isosurfaces, measured
 };
 
 struct Scene {

@@ -176,6 +176,7 @@ class TubeBuilder {
         part_.kind = ScenePart::Kind::borehole;
         part_.values.resize(model.properties.size());
         part_.color = missing_color;
+        part_.sides = sides;
     }
 
     ScenePart build(const Borehole& hole, const std::vector<Station>& stations) {

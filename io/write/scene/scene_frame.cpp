@@ -6,6 +6,7 @@
 
 #include "io/base/crs.hpp"
 #include "io/base/earth_centred.hpp"
+#include "io/base/vertical_crs.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -39,7 +40,8 @@ struct SceneFrame::Globe {
     }
 };
 
-SceneFrame::SceneFrame(const Model& model, Axes axes) : frame_(&model.frame), axes_(axes) {
+SceneFrame::SceneFrame(const Model& model, Axes axes, const std::string& vertical_crs)
+    : frame_(&model.frame), axes_(axes) {
     const Box3& extent = model.domain.extent;
     const double step = std::pow(10.0, std::floor(std::log10(extent.diagonal() / 100)));
     const Vec3 middle = frame_->to_world(extent.center());
@@ -48,7 +50,7 @@ SceneFrame::SceneFrame(const Model& model, Axes axes) : frame_(&model.frame), ax
     }
     local_origin_ = frame_->to_local(origin_);
 
-    const Crs crs = crs_from_wkt(frame_->crs_wkt);
+    const Crs crs = with_vertical(crs_from_wkt(frame_->crs_wkt), vertical_crs);
     if (!crs.empty() && !crs.local) {
         try {
             CrsTransform transform(crs, parse_crs("EPSG:4979"));

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tess/model.hpp"
@@ -29,9 +30,10 @@ class SceneFrame {
         enu,   ///< east, north and up on the globe at the origin, through earth-centred coordinates: convergence,
                ///< scale and curvature are in the positions
     };
-    /// The origin is on a round number, where single precision is finest. Throws UsageError for enu in a model without
-    /// a place on the globe.
-    explicit SceneFrame(const Model& model, Axes axes = Axes::grid);
+    /// The origin is on a round number, where single precision is finest. \param vertical_crs  EPSG code of the
+    /// heights, for a system that says none (io/base/vertical_crs.hpp); may be empty. Throws UsageError for enu in a
+    /// model without a place on the globe.
+    explicit SceneFrame(const Model& model, Axes axes = Axes::grid, const std::string& vertical_crs = {});
     ~SceneFrame();
     SceneFrame(SceneFrame&&) noexcept;
 

@@ -113,6 +113,8 @@ ScenePart isosurface_part(const SceneCells& cells, const IsoLevel& level, double
     const double value = from_scale(p, level.scaled);
     part.name = "isosurface: " + p.name + "=" + number_text(value) + (p.unit.empty() ? "" : " " + p.unit);
     part.kind = ScenePart::Kind::isosurface;
+    part.property = p.name;
+    part.level = value;
     part.opacity = opacity;
     part.color =
         coloring.has_property() && coloring.index() == level.property ? coloring.at(value) : Color{0.4, 0.5, 0.6};

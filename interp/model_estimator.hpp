@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "tess/value_source.hpp"
 
 namespace terratet {
+
+class ChangedPlaces;
 
 struct EstimatorCounters {
     std::atomic<std::uint64_t> queries{0};
@@ -72,12 +75,39 @@ class ModelEstimator {
     /// unless options.uncertainty was set.
     [[nodiscard]] std::vector<PropertyEstimates> estimates(std::span<const ValueQuery> queries) const;
 
+    /// Which of these places, estimated by `before`, may have other values here: of the model's next state, with the
+    /// same barriers and properties. What both know of slopes is carried over. Called before anything is estimated
+    /// here; all that is judged has been estimated by `before`, or judged the same since. The others have the same
+    /// values, to the last bit. \param before_of  of each sample here its number in the model of `before`; −1: none
+    class Changes;
+    [[nodiscard]] std::shared_ptr<const Changes> changes_since(const ModelEstimator& before,
+                                                               std::span<const std::int64_t> before_of) const;
+
     /// With everything fitted: what a model keeps, so that its estimator stays as it was.
     [[nodiscard]] const EstimatorPlan& plan() const;
 
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+/// Where values may differ.
+class ModelEstimator::Changes {
+  public:
+    /// \param extrapolation  of each place, as it was estimated. In parallel.
+    [[nodiscard]] std::vector<std::uint8_t> at(std::span<const ValueQuery> places,
+                                               std::span<const double> extrapolation) const;
+
+  private:
+    friend class ModelEstimator;
+    struct OfGroup {
+        std::shared_ptr<const ChangedPlaces> places;
+        double reach;  ///< the farthest of its columns'
+    };
+    const BarrierQuery* barriers_ = nullptr;
+    bool everywhere_ = false;
+    std::vector<OfGroup> groups_;
+    std::set<Vec3> wide_;  ///< places whose values any change may change
 };
 
 }  // namespace terratet

@@ -25,9 +25,9 @@ class ModelSnapshot {
 
     /// As it was built or changed, with what that made; without `complete`, mesh and cells are made when they are asked
     /// for. `estimator` is of that model and its barriers, or inherited from the state before
-    /// (estimator_of); null: by the model's plan, when it is asked for.
+    /// (estimator_of); null: by the model's plan, when it is asked for. `valued`: all values of vertices are from it.
     ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
-                  bool complete = true, bool inherited = false);
+                  bool complete = true, bool inherited = false, bool valued = true);
     ~ModelSnapshot();
     ModelSnapshot(const ModelSnapshot&) = delete;
     ModelSnapshot& operator=(const ModelSnapshot&) = delete;
@@ -48,9 +48,12 @@ class ModelSnapshot {
     [[nodiscard]] const ModelEstimator& estimator() const;
     [[nodiscard]] const ModelEstimator& estimator_with_errors() const;
     /// The same for the next state, whose samples and barriers are these; it keeps what it reads alive.
-    /// \param self  this
+    /// \param self     this
     [[nodiscard]] static std::shared_ptr<const ModelEstimator> estimator_of(
         const std::shared_ptr<const ModelSnapshot>& self);
+    /// The estimator that all values of the model's vertices came from, or their like to the last bit; null for a model
+    /// that was stored since. Lives as long as this.
+    [[nodiscard]] const ModelEstimator* source_of_values() const;
 
     /// The vertices next to a borehole's own in the Voronoi sense, ascending: whose cells share a wall with one of its
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).

@@ -14,8 +14,10 @@
 ///      where the samples they come from do.
 ///  All of building but D3 and R6, which speak of building; R7 of insertion.
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tess/build.hpp"
@@ -46,6 +48,15 @@ struct VertexChanges {
 
 VertexChanges vertex_changes(const Model& before, const Model& after);
 
+/// Values of the next state, and where they differ from those before.
+struct NextValues {
+    NextValues(ValueSource values) : source(std::move(values)) {}  // NOLINT: mostly nothing more is known
+
+    ValueSource source;
+    /// Which of these places, whose extrapolation was this, may; none of the others does, to the last bit. Empty: all.
+    std::function<std::vector<std::uint8_t>(std::span<const ValueQuery>, std::span<const double>)> differs;
+};
+
 struct ChangeReport {
     std::size_t samples_out = 0;  ///< of vertices: those that stood for a sample that left, or that was thinned
     std::size_t samples_in = 0;
@@ -60,13 +71,13 @@ struct ChangeReport {
 
 /// The next model with its tessellation and barriers; mesh and cell table are left to be made. `tessellation` is that
 /// of `before`, and is spent whatever happens. `factory` is asked once the next samples and barriers are there;
-/// `same_values` says that they are the old ones, so that no estimate changes. Ids go on above those of `before`.
+/// `same_values` says that they are the old ones, `same_barriers` that those are. Ids go on above those of `before`.
 /// Throws as build() does, UsageError when the model would be left without a sample.
-/// Local, but for walks over vertices, samples and values of some nanoseconds each, and for estimates, which are all
-/// made again when samples or barriers have changed. \pre is_local_change
+/// Local, but for walks over vertices, samples and values of some nanoseconds each; estimates are made where the
+/// factory's answer says that they differ. \pre is_local_change
 std::unique_ptr<TessellatedModel> change_model(
     const Model& before, Tessellation tessellation, ModelPlan plan,
-    const std::function<ValueSource(const Model&, const BarrierQuery&, bool same_values)>& factory,
+    const std::function<NextValues(const Model&, const BarrierQuery&, bool same_values, bool same_barriers)>& factory,
     ChangeReport& report, const Progress& progress = {}, const RefineOptions& refine = {});
 
 }  // namespace terratet

@@ -8,4 +8,9 @@ std::shared_ptr<const Slopes> Estimator::slopes(std::vector<std::span<const doub
     return nullptr;
 }
 
+std::unique_ptr<const ChangedPlaces> Estimator::changes_since(const Estimator&, const ExchangedSites&, const Slopes*,
+                                                              const Slopes*) const {
+    return nullptr;
+}
+
 }  // namespace terratet

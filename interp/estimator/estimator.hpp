@@ -34,6 +34,7 @@ struct Weights {
                         ///< slopes (Estimator::slopes); 0 where nothing is hidden
     std::vector<SiteWeight> slope_terms;  ///< whose slopes count along the lever; empty: the terms
     double distance = std::numeric_limits<double>::infinity();  ///< the shortest way to a site (ways_round.hpp)
+    bool wide = false;      ///< depends on more sites than those about the place: any change of sites may change it
     bool fallback = false;  ///< computed by a slower or simpler way than the method's own
     double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the estimate's error in the scale's unit
                                                                  ///< squared; NaN where the method knows none
@@ -48,6 +49,21 @@ struct Weights {
 
 class Slopes;
 
+/// Where what is estimated may differ from what another estimator, over nearly the same sites, said.
+class ChangedPlaces {
+  public:
+    virtual ~ChangedPlaces() = default;
+    /// \param way  there was none longer than this to a site, as far as it mattered. Safe from any thread. Places whose
+    ///             weights were `wide` are not told of.
+    [[nodiscard]] virtual bool at(const Vec3& place, double way) const = 0;
+};
+
+/// Sites before and after an exchange of some, in an estimator's numbering.
+struct ExchangedSites {
+    std::vector<std::int64_t> before;  ///< of each site its number before; −1: it is new, or of another value
+    std::vector<Vec3> places;          ///< of those that left and of those that came
+};
+
 class Estimator {
   public:
     virtual ~Estimator() = default;
@@ -58,6 +74,15 @@ class Estimator {
     /// Of values at its sites, a span for each column, what lies along the lever: slopes.hpp. Null for a method whose
     /// weights have none. The estimator and the values must outlive it.
     [[nodiscard]] virtual std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const;
+
+    /// Where weights, or what slopes add to them, differ from an earlier estimator's of the same kind, options and
+    /// barriers; slopes that are the same are carried over. Null: anywhere.
+    /// \param slopes, slopes_before  of these sites and those; nothing was asked of the first one yet. All that was
+    ///                                estimated before and is to be judged has been asked of `before`
+    [[nodiscard]] virtual std::unique_ptr<const ChangedPlaces> changes_since(const Estimator& before,
+                                                                             const ExchangedSites& sites,
+                                                                             const Slopes* slopes_before,
+                                                                             const Slopes* slopes) const;
 
     /// Do its weights come with a variance of their own?
     [[nodiscard]] virtual bool has_variance() const { return false; }

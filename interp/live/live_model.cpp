@@ -10,6 +10,7 @@
 
 #include "interp/estimator_plan.hpp"
 #include "interp/plan/estimator_choice.hpp"
+#include "tess/edit/matched_rows.hpp"
 #include "tess/error.hpp"
 #include "tess/site_edits.hpp"
 
@@ -45,20 +46,51 @@ bool has_uncertainty(const Model& model) {
     });
 }
 
+/// What bars estimation reaches past the box of hull and samples.
+bool sees_alike(const Model& before, const Model& after) {
+    return before.properties == after.properties && before.estimator == after.estimator &&
+           (before.barriers.empty() ||
+            (before.domain.hull == after.domain.hull &&
+             bounding_box(before.samples.positions) == bounding_box(after.samples.positions)));
+}
+
+/// Of each sample of `after` its number in `before`; −1: none.
+std::vector<std::int64_t> samples_before(const Model& before, const Model& after) {
+    std::vector<std::int64_t> numbers(after.samples.size(), -1);
+    const auto next_of = matched_samples(before.samples, after.samples);
+    for (std::size_t i = 0; i < next_of.size(); ++i) {
+        if (next_of[i] >= 0) {
+            numbers[static_cast<std::size_t>(next_of[i])] = static_cast<std::int64_t>(i);
+        }
+    }
+    return numbers;
+}
+
 std::shared_ptr<ModelSnapshot> changed(const std::shared_ptr<const ModelSnapshot>& before, ModelPlan plan,
                                        ChangeReport& report, const Progress& progress, const RefineOptions& refine) {
     std::shared_ptr<const ModelEstimator> estimator;
     bool inherited = false;
-    const auto factory = [&](const Model& model, const BarrierQuery& barriers, bool same_values) -> ValueSource {
+    bool valued = true;
+    const auto factory = [&](const Model& model, const BarrierQuery& barriers, bool same_values,
+                             bool same_barriers) -> NextValues {
+        const ModelEstimator* source = before->source_of_values();
         inherited = same_values;
+        valued = !same_values || source != nullptr;
         estimator = same_values ? ModelSnapshot::estimator_of(before)
                                 : std::make_shared<const ModelEstimator>(model, barriers,
                                                                          parse_estimator_plan(model.estimator));
-        return [estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); };
+        NextValues next([estimator](std::span<const ValueQuery> queries) { return estimator->values(queries); });
+        if (!same_values && source != nullptr && same_barriers && sees_alike(before->model(), model)) {
+            const auto changes = estimator->changes_since(*source, samples_before(before->model(), model));
+            next.differs = [changes](std::span<const ValueQuery> places, std::span<const double> extrapolation) {
+                return changes->at(places, extrapolation);
+            };
+        }
+        return next;
     };
     auto made =
         change_model(before->model(), before->take_tessellation(), std::move(plan), factory, report, progress, refine);
-    return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator), false, inherited);
+    return std::make_shared<ModelSnapshot>(std::move(made), std::move(estimator), false, inherited, valued);
 }
 
 /// With the options it was built with, but for what the plan says.

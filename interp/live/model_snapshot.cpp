@@ -39,6 +39,7 @@ struct ModelSnapshot::Impl {
     EstimatorPlan plan;
     std::shared_ptr<const ModelEstimator> estimator;
     bool inherited = false;  ///< the estimator: it is that of an earlier state, which it keeps alive
+    bool valued = false;     ///< by the estimator, all vertices
     std::unique_ptr<const ModelEstimator> with_errors;
     std::array<std::unique_ptr<const CollapsedModel>, 2> collapsed;  ///< all, bounds
     std::optional<bool> delaunay;
@@ -77,6 +78,7 @@ struct ModelSnapshot::Impl {
         if (!estimator) {
             estimator = std::make_shared<const ModelEstimator>(made->model, barriers(), plan);
             inherited = false;
+            valued = false;
         }
         return estimator;
     }
@@ -97,12 +99,13 @@ ModelSnapshot::ModelSnapshot(Model model) : impl_(std::make_unique<Impl>()) {
 }
 
 ModelSnapshot::ModelSnapshot(std::unique_ptr<TessellatedModel> made, std::shared_ptr<const ModelEstimator> estimator,
-                             bool complete, bool inherited)
+                             bool complete, bool inherited, bool valued)
     : impl_(std::make_unique<Impl>()) {
     impl_->plan = estimator ? estimator->plan() : parse_estimator_plan(made->model.estimator);
     impl_->made = std::move(made);
     impl_->estimator = std::move(estimator);
     impl_->inherited = inherited;
+    impl_->valued = valued && impl_->estimator != nullptr;
     impl_->tessellated = complete;
     impl_->described = complete;
 }
@@ -186,6 +189,11 @@ std::shared_ptr<const ModelEstimator> ModelSnapshot::estimator_of(const std::sha
     const std::lock_guard lock(self->impl_->mutex);
     const auto& own = self->impl_->plain_estimator();
     return self->impl_->inherited ? own : std::shared_ptr<const ModelEstimator>(self, own.get());
+}
+
+const ModelEstimator* ModelSnapshot::source_of_values() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->valued ? impl_->estimator.get() : nullptr;
 }
 
 const ModelEstimator& ModelSnapshot::estimator_with_errors() const {

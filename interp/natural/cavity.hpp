@@ -15,8 +15,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "interp/sites/compact_delaunay.hpp"
 #include "interp/base/stamped.hpp"
+#include "interp/sites/compact_delaunay.hpp"
 
 namespace terratet {
 

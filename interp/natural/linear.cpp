@@ -6,6 +6,7 @@
 
 #include "interp/estimator/query_order.hpp"
 #include "interp/natural/cavity.hpp"
+#include "interp/natural/changed_places.hpp"
 #include "interp/natural/exact_volumes.hpp"
 #include "interp/natural/slopes.hpp"
 
@@ -68,6 +69,13 @@ void LinearInCells::weights(std::span<const ValueQuery> queries, std::span<Weigh
 
 std::shared_ptr<const Slopes> LinearInCells::slopes(std::vector<std::span<const double>> columns) const {
     return std::make_shared<const Slopes>(sites_, std::move(columns));
+}
+
+std::unique_ptr<const ChangedPlaces> LinearInCells::changes_since(const Estimator& before, const ExchangedSites& sites,
+                                                                  const Slopes* slopes_before,
+                                                                  const Slopes* slopes) const {
+    const auto* same = dynamic_cast<const LinearInCells*>(&before);
+    return same == nullptr ? nullptr : changed_places({same->sites_, *slopes_before}, {sites_, *slopes}, sites);
 }
 
 void LinearInCells::estimate(const Vec3& place, std::int32_t& start, Weights& out) const {

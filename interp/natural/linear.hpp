@@ -24,6 +24,10 @@ class LinearInCells final : public Estimator {
 
     void weights(std::span<const ValueQuery> queries, std::span<Weights> out) const override;
     [[nodiscard]] std::shared_ptr<const Slopes> slopes(std::vector<std::span<const double>> columns) const override;
+    [[nodiscard]] std::unique_ptr<const ChangedPlaces> changes_since(const Estimator& before,
+                                                                     const ExchangedSites& sites,
+                                                                     const Slopes* slopes_before,
+                                                                     const Slopes* slopes) const override;
 
   private:
     void estimate(const Vec3& place, std::int32_t& start, Weights& out) const;

@@ -8,6 +8,7 @@
 
 #include "interp/estimator/query_order.hpp"
 #include "interp/natural/cavity.hpp"
+#include "interp/natural/changed_places.hpp"
 #include "interp/natural/exact_volumes.hpp"
 #include "interp/natural/site_gradients.hpp"
 #include "interp/natural/slopes.hpp"
@@ -126,6 +127,7 @@ struct NaturalNeighbour::Impl {
             out.fallback = true;
         }
         sites.weigh(query, work.cavity.vertices, work.shares, out);
+        out.wide = out.wide || !work.cavity.groups.empty();  // whose sums follow the grouping of all cells
         if (gradients && out.terms.size() > 1) {
             add_gradients(query, work, out);
         }
@@ -202,6 +204,17 @@ void NaturalNeighbour::weights(std::span<const ValueQuery> queries, std::span<We
 
 std::shared_ptr<const Slopes> NaturalNeighbour::slopes(std::vector<std::span<const double>> columns) const {
     return std::make_shared<const Slopes>(impl_->sites, std::move(columns));
+}
+
+std::unique_ptr<const ChangedPlaces> NaturalNeighbour::changes_since(const Estimator& before,
+                                                                     const ExchangedSites& sites,
+                                                                     const Slopes* slopes_before,
+                                                                     const Slopes* slopes) const {
+    const auto* same = dynamic_cast<const NaturalNeighbour*>(&before);
+    if (same == nullptr || impl_->options.smooth || same->impl_->options.smooth) {
+        return nullptr;
+    }
+    return changed_places({same->impl_->sites, *slopes_before}, {impl_->sites, *slopes}, sites);
 }
 
 std::size_t NaturalNeighbour::memory_bytes() const {

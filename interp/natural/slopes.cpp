@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/natural/slopes.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,20 +23,25 @@ Slopes::Slopes(const SiteMesh& sites, std::vector<std::span<const double>> colum
       vertex_of_(static_cast<std::size_t>(sites.tessellation().site_count())),
       states_(std::make_unique<std::atomic<std::uint8_t>[]>(vertex_of_.size())),
       shapes_(std::make_unique_for_overwrite<Shape[]>(vertex_of_.size())),
-      slopes_(std::make_unique_for_overwrite<Slope[]>(vertex_of_.size() * columns_.size())) {
+      slopes_(std::make_unique_for_overwrite<Slope[]>(vertex_of_.size() * columns_.size())),
+      squared_reaches_(std::make_unique_for_overwrite<double[]>(vertex_of_.size())) {
     for (std::int32_t v = 0; v < sites.tessellation().site_count(); ++v) {
         vertex_of_[sites.original(v)] = v;
     }
 }
 
-void Slopes::fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const {
+const Stars& Slopes::stars() const {
     std::call_once(stars_wanted_, [&] { stars_ = std::make_unique<const Stars>(sites_.tessellation()); });
-    Surroundings surroundings(sites_, sides_, *stars_, site);
+    return *stars_;
+}
+
+double Slopes::fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const {
+    Surroundings surroundings(sites_, sides_, stars(), site);
     const auto& seen = surroundings.look();
     shape = {};
     std::fill(slopes.begin(), slopes.end(), Slope{});
     if (seen.empty()) {
-        return;
+        return surroundings.squared_reach();
     }
     const Spread spread(seen);
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // of Σ w d dᵀ, on the axes that are determined
@@ -72,6 +79,7 @@ void Slopes::fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const
         }
         slopes[k] = {{g.x(), g.y(), g.z()}, scatter / total * n / freedom};
     }
+    return surroundings.squared_reach();
 }
 
 Slopes::Fitted Slopes::at(std::uint32_t site, std::size_t column) const {
@@ -79,7 +87,7 @@ Slopes::Fitted Slopes::at(std::uint32_t site, std::size_t column) const {
     auto& state = states_[site];
     std::uint8_t now = state.load(std::memory_order_acquire);
     if (now == untouched && state.compare_exchange_strong(now, claimed, std::memory_order_acquire)) {
-        fit(vertex_of_[site], shapes_[site], {&slopes_[first], columns_.size()});
+        squared_reaches_[site] = fit(vertex_of_[site], shapes_[site], {&slopes_[first], columns_.size()});
         state.store(fitted, std::memory_order_release);
         now = fitted;
     }
@@ -92,6 +100,60 @@ Slopes::Fitted Slopes::at(std::uint32_t site, std::size_t column) const {
     slopes.resize(columns_.size());
     fit(vertex_of_[site], shape, slopes);
     return {shape, slopes[column]};
+}
+
+std::vector<std::int32_t> Slopes::take_over(const Slopes& before, std::span<const std::int64_t> before_of,
+                                            std::span<const Vec3> touched) const {
+    std::vector<std::int32_t> stale;
+    std::vector<std::uint32_t> doubtful;  // to be fitted again, and compared
+    const Box3 box = bounding_box(touched);
+    const SiteTree tree(touched);
+    std::vector<NearSite> near;
+    const auto is_touched = [&](const Vec3& p, double squared_reach) {
+        if (squared_distance(p, box.clamped(p)) > squared_reach) {
+            return false;
+        }
+        near.clear();
+        tree.nearest(p, 1, squared_reach, near);
+        return !near.empty();
+    };
+    for (std::size_t site = 0; site < before_of.size(); ++site) {
+        if (before_of[site] < 0) {
+            continue;
+        }
+        const auto old = static_cast<std::size_t>(before_of[site]);
+        if (before.states_[old].load(std::memory_order_acquire) != fitted) {
+            continue;
+        }
+        const std::int32_t vertex = before.vertex_of_[old];
+        const Vec3& p = before.sites_.tessellation().points()[static_cast<std::size_t>(vertex)];
+        if (is_touched(p, before.squared_reaches_[old])) {
+            doubtful.push_back(static_cast<std::uint32_t>(site));
+            continue;
+        }
+        shapes_[site] = before.shapes_[old];
+        std::copy_n(&before.slopes_[old * columns_.size()], columns_.size(), &slopes_[site * columns_.size()]);
+        squared_reaches_[site] = before.squared_reaches_[old];
+        states_[site].store(fitted, std::memory_order_release);
+    }
+    std::vector<std::uint8_t> differs(doubtful.size());
+    tbb::parallel_for(std::size_t(0), doubtful.size(), [&](std::size_t i) {
+        const std::uint32_t site = doubtful[i];
+        const auto old = static_cast<std::size_t>(before_of[site]);
+        bool same = true;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const auto [shape, slope] = at(site, c);
+            same = same && shape == before.shapes_[old] && slope == before.slopes_[old * columns_.size() + c];
+        }
+        differs[i] = same ? 0 : 1;
+    });
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+        if (differs[i] != 0) {
+            stale.push_back(before.vertex_of_[static_cast<std::size_t>(before_of[doubtful[i]])]);
+        }
+    }
+    std::sort(stale.begin(), stale.end());
+    return stale;
 }
 
 Slopes::Part Slopes::along_lever(std::size_t column, const Weights& weights) const {

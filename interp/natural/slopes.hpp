@@ -15,7 +15,7 @@
 /// plane of least slope. All in the coordinates of the estimator's anisotropy.
 ///
 /// Fitted when first needed, once a site, from the site's surroundings alone: const, reentrant, and the same whatever
-/// was asked before. 48 bytes a site and 32 more for each column, for those that were needed.
+/// was asked before. 56 bytes a site and 32 more for each column, for those that were needed.
 
 #include <atomic>
 #include <cstdint>
@@ -45,10 +45,20 @@ class Slopes {
     /// The weighted mean of a column's gradients times the lever. O(terms) once they are fitted.
     [[nodiscard]] Part along_lever(std::size_t column, const Weights& weights) const;
 
+    /// Takes over what `before` has fitted and nothing has touched since. Before anything is asked of this.
+    /// \param before_of  of each of the caller's sites its number in `before`; −1: none
+    /// \param touched    sites that came, left, or have other neighbours than before, in the tessellation's coordinates
+    /// \returns those fitted in `before` that are others here, by the numbers of its tessellation, ascending
+    std::vector<std::int32_t> take_over(const Slopes& before, std::span<const std::int64_t> before_of,
+                                        std::span<const Vec3> touched) const;
+    /// Of all sites; made when first asked for.
+    [[nodiscard]] const Stars& stars() const;
+
   private:
     struct Slope {
         Vec3 gradient;
         double scatter;  ///< variance about the plane
+        friend bool operator==(const Slope&, const Slope&) = default;
     };
     /// Variance of the gradient for a scatter of 1: the symmetric matrix's xx, yy, zz, xy, xz, yz.
     using Shape = std::array<double, 6>;
@@ -58,7 +68,8 @@ class Slopes {
         const Slope& slope;
     };
     Fitted at(std::uint32_t site, std::size_t column) const;
-    void fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const;
+    /// \returns Surroundings::squared_reach
+    double fit(std::int32_t site, Shape& shape, std::span<Slope> slopes) const;
 
     const SiteMesh& sites_;
     SheetSides sides_;
@@ -67,8 +78,9 @@ class Slopes {
     mutable std::once_flag stars_wanted_;
     mutable std::unique_ptr<const Stars> stars_;
     std::unique_ptr<std::atomic<std::uint8_t>[]> states_;
-    std::unique_ptr<Shape[]> shapes_;  ///< of each site
-    std::unique_ptr<Slope[]> slopes_;  ///< of each site, by column
+    std::unique_ptr<Shape[]> shapes_;            ///< of each site
+    std::unique_ptr<Slope[]> slopes_;            ///< of each site, by column
+    std::unique_ptr<double[]> squared_reaches_;  ///< of each site
 };
 
 }  // namespace terratet

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace terratet {
 namespace {
@@ -17,6 +18,7 @@ constexpr std::size_t farther_reach = 4000;  // sites looked at by distance: all
 constexpr std::size_t farther_all = 500;     // up to here,
 constexpr std::size_t farther_one_in = 8;    // and then one in so many
 constexpr std::uint32_t farther_per_octant = 4;
+constexpr double thickness_doubt = 4;  // squared: an exchange of sites may make them so much thinner
 
 Eigen::Vector3d vector_of(const Vec3& v) {
     return {v.x, v.y, v.z};
@@ -103,6 +105,7 @@ bool Surroundings::next_ring() {
 
 /// Neighbours tell too little: what is seen over them, on all sides.
 void Surroundings::look_farther() {
+    squared_reach_ = std::numeric_limits<double>::infinity();
     std::size_t looked_at = 0;
     const auto usable = [&](std::uint32_t i) {
         const auto vertex = static_cast<std::int32_t>(i);
@@ -120,13 +123,13 @@ void Surroundings::look_farther() {
                                 usable, near);
 }
 
-bool Surroundings::enough() const {
+bool Surroundings::enough() {
     const Eigen::Matrix3d moments = Spread::moments(seen_);
     return Spread(moments).determines_all() || nothing_left(moments);
 }
 
 /// Is every axis determined but those along which no site at the last ring's distance or beyond would help?
-bool Surroundings::nothing_left(Eigen::Matrix3d moments) const {
+bool Surroundings::nothing_left(Eigen::Matrix3d moments) {
     // Where the sites are H thick along an axis, one at distance r adds along it at most H²/r² of what it adds to the
     // trace, a third of which the widest has at least. What has too little along the axis, and is given no more by any
     // further site than too little, stays so: the axis is then counted as wide.
@@ -135,6 +138,10 @@ bool Surroundings::nothing_left(Eigen::Matrix3d moments) const {
     bool thin = false;
     for (int i = 0; i < 3; ++i) {
         const Eigen::Vector3d axis = vector_of(box.axis(i));
+        const double thickness = box.thickness(i);
+        if (thickness * thickness <= thickness_doubt * share * reached_) {
+            squared_reach_ = std::numeric_limits<double>::infinity();
+        }
         if (box.thickness(i) * box.thickness(i) <= share * reached_ && axis.dot(moments * axis) <= share * all) {
             thin = true;
             moments += all * axis * axis.transpose();
@@ -146,6 +153,7 @@ bool Surroundings::nothing_left(Eigen::Matrix3d moments) const {
 /// Is it seen?
 bool Surroundings::ask(std::int32_t vertex) {
     ++asked_;
+    squared_reach_ = std::max(squared_reach_, squared_distance(point(site_), point(vertex)));
     const double open = sites_.openness(sites_.place(site_), vertex);
     if (open > 0) {
         const Vec3 d = point(vertex) - point(site_);

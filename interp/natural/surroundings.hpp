@@ -56,13 +56,16 @@ class Surroundings {
     const std::vector<Seen>& look();
     /// How many sites it was asked of whether they are seen.
     [[nodiscard]] std::size_t asked() const { return asked_; }
+    /// Within that squared distance lies all that decided what was seen; infinity where the sites as a whole did, or
+    /// nearly so.
+    [[nodiscard]] double squared_reach() const { return squared_reach_; }
 
   private:
     void look_farther();
     bool look_at_ring(std::size_t ring);
     bool next_ring();
-    [[nodiscard]] bool enough() const;
-    [[nodiscard]] bool nothing_left(Eigen::Matrix3d moments) const;
+    [[nodiscard]] bool enough();
+    [[nodiscard]] bool nothing_left(Eigen::Matrix3d moments);
     bool ask(std::int32_t vertex);
     void take_across();
     [[nodiscard]] const Vec3& point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
@@ -74,6 +77,7 @@ class Surroundings {
     std::int32_t site_;
     static thread_local StampedSet number_;
     std::size_t asked_ = 0;
+    double squared_reach_ = 0;
     double reached_ = 0;  ///< squared distance of the last ring's nearest
     std::vector<std::int32_t> ring_;
     std::vector<std::pair<double, std::int32_t>> next_;

@@ -2,22 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/model_estimator.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <tuple>
+#include <mutex>
 #include <utility>
 
 #include "interp/estimator/beside_barriers.hpp"
 #include "interp/estimator/query_order.hpp"
 #include "interp/estimator_plan.hpp"
-#include "interp/natural/linear_precision.hpp"
 #include "interp/plan/estimator_choice.hpp"
+#include "interp/plan/estimator_groups.hpp"
 #include "interp/plan/extrapolation.hpp"
-#include "interp/plan/fitted_estimator.hpp"
-#include "interp/plan/learned_errors.hpp"
-#include "interp/plan/make_estimator.hpp"
 
 namespace terratet {
 namespace {
@@ -25,160 +24,11 @@ namespace {
 /// Weights of so many queries are held at a time.
 constexpr std::size_t block_size = 4096;
 
-/// A property's values at the sites of its group.
-struct Column {
-    std::size_t property;
-    std::vector<double> measured;
-    std::vector<double> scaled;
-    ColumnTraits traits;
-    std::optional<LearnedErrors> errors;
-    EstimatorSpec open{};  ///< as asked or chosen, before it was fitted
-};
-
-/// Properties measured at the same samples, barred by the same and estimated alike, and the estimator over those.
-struct Group {
-    EstimatorSpec spec;
-    const BarrierQuery* barriers = nullptr;
-    std::vector<std::uint32_t> samples;
-    std::vector<Vec3> sites;
-    std::vector<Column> columns;
-    std::unique_ptr<Estimator> estimator;
-    std::shared_ptr<const Slopes> slopes;  ///< by column
-};
-
-Column column_of(const Model& model, std::size_t p, const std::vector<std::uint32_t>& samples) {
-    Column column{p, {}, {}, {}, {}, {}};
-    for (const std::uint32_t s : samples) {
-        column.measured.push_back(model.samples.values[p][s]);
-        column.scaled.push_back(to_scale(model.properties[p], column.measured.back()));
-    }
-    return column;
-}
-
-template <typename T>
-std::vector<T> picked(const std::vector<T>& from, std::span<const std::uint32_t> which) {
-    std::vector<T> out;
-    out.reserve(which.size());
-    for (const std::uint32_t i : which) {
-        out.push_back(from[i]);
-    }
-    return out;
-}
-
-std::vector<std::uint32_t> samples_with(const Model& model, std::size_t p) {
-    std::vector<std::uint32_t> present;
-    for (std::uint32_t s = 0; s < model.samples.size(); ++s) {
-        if (!std::isnan(to_scale(model.properties[p], model.samples.values[p][s]))) {
-            present.push_back(s);
-        }
-    }
-    return present;
-}
-
-/// Chooses and fits what the plan leaves open, and notes it there.
-EstimatorSpec fitted_for(const Model& model, Column& column, std::span<const std::uint32_t> samples,
-                         const BarrierQuery& barriers, EstimatorPlan& plan) {
-    const Property& property = model.properties[column.property];
-    EstimatorSpec spec = plan.of(property.name);
-    column.open = spec;
-    const bool to_choose = is_to_be_chosen(spec);
-    if (!to_choose && !needs_values(spec)) {
-        return spec;
-    }
-    const SampledValues data{beside_barriers(picked(model.samples.positions, samples), barriers), column.scaled,
-                             picked(model.samples.borehole, samples), property.kind};
-    if (to_choose) {
-        auto chosen = EstimatorChooser(data, &barriers).choose(spec);
-        spec = std::move(chosen.spec);
-        plan.choices[property.name] = chosen.choice;
-        column.open = spec;
-    }
-    spec = fitted_estimator(spec, data.sites, data.values, data.boreholes, property.kind, &barriers);
-    plan.of_property[property.name] = spec;
-    return spec;
-}
-
 /// A plan in which all is chosen: what a property to come is estimated by, too.
 void close(EstimatorPlan& plan) {
     plan.general = without_choice(std::move(plan.general));
     std::erase_if(plan.of_property,
                   [&](const auto& entry) { return entry.second.to_string() == plan.general.to_string(); });
-}
-
-std::shared_ptr<const Slopes> slopes_of(const Group& group) {
-    std::vector<std::span<const double>> columns;
-    for (const auto& column : group.columns) {
-        columns.emplace_back(column.scaled);
-    }
-    return group.estimator->slopes(std::move(columns));
-}
-
-/// As the plan knows them, else found and noted there.
-void set_traits(Group& group, const Model& model, std::span<const std::int32_t> boreholes, EstimatorPlan& plan) {
-    std::optional<double> reach;
-    for (auto& column : group.columns) {
-        const auto [known, fresh] = plan.traits.try_emplace(model.properties[column.property].name);
-        if (fresh) {
-            reach = reach ? reach : reach_of(group.spec, group.sites, boreholes);
-            known->second = traits_of(column.scaled, *reach);
-        }
-        column.traits = known->second;
-    }
-}
-
-/// One for each distinct set of samples and way of estimating; a property without samples is in no group and gets no
-/// values.
-std::vector<Group> groups_of(const Model& model, const BarrierQuery& barriers, EstimatorPlan& plan) {
-    std::map<std::tuple<std::vector<std::uint32_t>, std::string, bool>, Group> groups;
-    for (std::size_t p = 0; p < model.properties.size(); ++p) {
-        auto samples = samples_with(model, p);
-        if (samples.empty()) {
-            continue;
-        }
-        Column column = column_of(model, p, samples);
-        const BarrierQuery& seen = barriers.seen_by(p);
-        EstimatorSpec spec = fitted_for(model, column, samples, seen, plan);
-        Group& group = groups[{samples, spec.to_string(), &seen == &barriers}];
-        group.barriers = &seen;
-        group.columns.push_back(std::move(column));
-        group.spec = std::move(spec);
-        group.samples = std::move(samples);
-    }
-    std::vector<Group> out;
-    for (auto& [key, group] : groups) {
-        group.sites = beside_barriers(picked(model.samples.positions, group.samples), barriers);
-        const auto boreholes = picked(model.samples.borehole, group.samples);
-        group.estimator = make_estimator(group.spec, group.sites, group.barriers, boreholes);
-        set_traits(group, model, boreholes, plan);
-        out.push_back(std::move(group));
-        out.back().slopes = slopes_of(out.back());
-    }
-    return out;
-}
-
-/// Leaves boreholes out to learn how far estimates are off; what is found comes back in the plan.
-void learn_group(Group& group, const Model& model, const EstimatorPlan& asked, std::size_t max_folds,
-                 EstimatorPlan& plan) {
-    const auto boreholes = picked(model.samples.borehole, group.samples);
-    ErrorTask task{group.spec,      group.spec, model.samples, group.samples, group.sites, boreholes,
-                   *group.barriers, {},         max_folds};
-    for (const auto& column : group.columns) {
-        const Property& property = model.properties[column.property];
-        const auto known = asked.calibrations.find(property.name);
-        task.columns.push_back({column.scaled, property.kind == Kind::continuous,
-                                known == asked.calibrations.end() ? nullptr : &known->second, column.traits});
-    }
-    if (group.columns.size() == 1 && task.columns.front().continuous && task.columns.front().known == nullptr) {
-        const Column& column = group.columns.front();
-        task.open = open_again(group.spec, column.open, group.sites, column.scaled, boreholes, Kind::continuous);
-    }
-    auto learned = learn_errors(task);
-    for (std::size_t c = 0; c < learned.size(); ++c) {
-        if (learned[c]) {
-            plan.calibrations[model.properties[group.columns[c].property].name] = learned[c]->calibration;
-        }
-        group.columns[c].errors = std::move(learned[c]);
-    }
 }
 
 /// Summed by class, in ascending order of the class.
@@ -269,6 +119,24 @@ struct ModelEstimator::Impl {
     EstimatorPlan plan;
     std::vector<Group> groups;
     std::shared_ptr<EstimatorCounters> counters;
+    mutable std::mutex wide_mutex{};
+    mutable std::vector<Vec3> wide{};  ///< places that were asked for whose weights were, some more than once
+
+    void note_wide(std::span<const ValueQuery> queries, const std::vector<Weights>& weights) const {
+        if (std::ranges::any_of(weights, &Weights::wide)) {
+            const std::lock_guard lock(wide_mutex);
+            for (std::size_t k = 0; k < queries.size(); ++k) {
+                if (weights[k].wide) {
+                    wide.push_back(queries[k].position);
+                }
+            }
+            if (wide.size() == wide.capacity()) {
+                std::ranges::sort(wide);
+                wide.erase(std::ranges::unique(wide).begin(), wide.end());
+                wide.reserve(2 * wide.size() + 1024);
+            }
+        }
+    }
 
     /// Calls work(group, place, weights, queries): weights of a block of queries at a time, near each other, or each
     /// would walk over all of the memory; place[k] is the block's k-th query's index in `queries`.
@@ -309,6 +177,7 @@ struct ModelEstimator::Impl {
         std::vector<std::uint8_t> fallback(queries.size(), 0);
         for (const auto& group : groups) {
             group.estimator->weights(queries, weights);
+            note_wide(queries, weights);
             for (std::size_t k = 0; k < queries.size(); ++k) {
                 fallback[k] |= static_cast<std::uint8_t>(weights[k].fallback);
                 if (weights[k].terms.empty()) {
@@ -390,6 +259,51 @@ ModelEstimator::~ModelEstimator() = default;
 
 const EstimatorPlan& ModelEstimator::plan() const {
     return impl_->plan;
+}
+
+std::shared_ptr<const ModelEstimator::Changes> ModelEstimator::changes_since(
+    const ModelEstimator& before, std::span<const std::int64_t> before_of) const {
+    auto changes = std::make_shared<Changes>();
+    changes->barriers_ = &impl_->barriers;
+    const auto& old = before.impl_->groups;
+    changes->everywhere_ = old.size() != impl_->groups.size();
+    for (std::size_t g = 0; !changes->everywhere_ && g < old.size(); ++g) {
+        const Group& group = impl_->groups[g];
+        const bool no_column = group.columns.empty() || old[g].columns.empty();
+        const auto partner = std::ranges::find_if(old, [&](const Group& other) {
+            return !no_column && other.columns.front().property == group.columns.front().property;
+        });
+        Changes::OfGroup of_group{nullptr, 0};
+        if (partner != old.end()) {
+            of_group.places = changes_between(*partner, group, before_of);
+        }
+        for (const Column& column : group.columns) {
+            of_group.reach = std::max(of_group.reach, column.traits.reach);
+        }
+        changes->everywhere_ = of_group.places == nullptr;
+        changes->groups_.push_back(std::move(of_group));
+    }
+    const std::lock_guard lock(before.impl_->wide_mutex);
+    changes->wide_.insert(before.impl_->wide.begin(), before.impl_->wide.end());
+    return changes;
+}
+
+std::vector<std::uint8_t> ModelEstimator::Changes::at(std::span<const ValueQuery> places,
+                                                      std::span<const double> extrapolation) const {
+    std::vector<std::uint8_t> changed(places.size(), 1);
+    if (everywhere_) {
+        return changed;
+    }
+    const auto asked = beside_barriers(places, *barriers_);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, asked.size(), 1024), [&](const auto& part) {
+        for (std::size_t i = part.begin(); i != part.end(); ++i) {
+            const Vec3& p = asked[i].position;
+            changed[i] = wide_.contains(p) || std::ranges::any_of(groups_, [&](const OfGroup& group) {
+                             return group.places->at(p, 2 * group.reach * extrapolation[i]);
+                         });
+        }
+    });
+    return changed;
 }
 
 ValueBatch ModelEstimator::values(std::span<const ValueQuery> queries) const {

@@ -36,6 +36,29 @@ Kernel::Point_3 exact(const Vec3& p) {
     return {p.x, p.y, p.z};
 }
 
+struct OrderedCell {
+    std::uint64_t code;
+    std::array<std::int32_t, 4> vertex;
+    Delaunay::Cell_handle cell;
+};
+
+/// Ascending by their sites' numbers, but for the last two where that would turn the cell inside out: an order that
+/// does not depend on how the tessellation was made.
+std::array<int, 4> order_of_corners(Delaunay::Cell_handle cell) {
+    std::array<int, 4> order{0, 1, 2, 3};
+    bool odd = false;
+    for (std::size_t i = 1; i < 4; ++i) {
+        for (std::size_t j = i; j > 0 && cell->vertex(order[j])->info() < cell->vertex(order[j - 1])->info(); --j) {
+            std::swap(order[j], order[j - 1]);
+            odd = !odd;
+        }
+    }
+    if (odd) {
+        std::swap(order[2], order[3]);
+    }
+    return order;
+}
+
 /// Sign of det(a − q, b − q, c − q), for a, b, c already relative to q.
 int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q, const Vec3& full_a, const Vec3& full_b,
          const Vec3& full_c) {
@@ -78,39 +101,47 @@ void CompactDelaunay::copy_tessellation() {
     const Delaunay delaunay(numbered.begin(), numbered.end());
     assert(delaunay.number_of_vertices() == points_.size() && "sites must be distinct");
 
-    const auto corners = [this](Delaunay::Cell_handle cell) {
+    const auto corners = [this](const std::array<std::int32_t, 4>& vertex) {
         std::array<Vec3, 4> p;
-        for (int k = 0; k < 4; ++k) {
-            p[static_cast<std::size_t>(k)] = points_[static_cast<std::size_t>(cell->vertex(k)->info())];
+        for (std::size_t k = 0; k < 4; ++k) {
+            p[k] = points_[static_cast<std::size_t>(vertex[k])];
         }
         return p;
     };
 
     const MortonCode code(cube_);
-    std::vector<std::pair<std::uint64_t, Delaunay::Cell_handle>> ordered;
+    std::vector<OrderedCell> ordered;
     ordered.reserve(delaunay.number_of_finite_cells());
     for (const auto cell : delaunay.finite_cell_handles()) {
-        const auto p = corners(cell);
-        ordered.emplace_back(code(0.25 * (p[0] + p[1] + p[2] + p[3])), cell);
+        OrderedCell next{0, {}, cell};
+        const auto order = order_of_corners(cell);
+        for (std::size_t k = 0; k < 4; ++k) {
+            next.vertex[k] = cell->vertex(order[k])->info();
+        }
+        const auto p = corners(next.vertex);
+        next.code = code(0.25 * (p[0] + p[1] + p[2] + p[3]));
+        ordered.push_back(next);
     }
-    std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(ordered.begin(), ordered.end(), [](const OrderedCell& a, const OrderedCell& b) {
+        return a.code != b.code ? a.code < b.code : a.vertex < b.vertex;
+    });
     for (const auto cell : delaunay.all_cell_handles()) {
         cell->info() = -1;
     }
     for (std::size_t i = 0; i < ordered.size(); ++i) {
-        ordered[i].second->info() = static_cast<std::int32_t>(i);
+        ordered[i].cell->info() = static_cast<std::int32_t>(i);
     }
 
     cells_.resize(ordered.size());
     parts_.resize(ordered.size());
     tbb::parallel_for(std::size_t(0), ordered.size(), [&](std::size_t i) {
-        const auto from = ordered[i].second;
         Cell& cell = cells_[i];
-        for (int k = 0; k < 4; ++k) {
-            cell.vertex[static_cast<std::size_t>(k)] = from->vertex(k)->info();
-            cell.neighbour[static_cast<std::size_t>(k)] = from->neighbor(k)->info();
+        const auto order = order_of_corners(ordered[i].cell);
+        cell.vertex = ordered[i].vertex;
+        for (std::size_t k = 0; k < 4; ++k) {
+            cell.neighbour[k] = ordered[i].cell->neighbor(order[k])->info();
         }
-        const auto sphere = certified_circumsphere(corners(from), relative_center_error);
+        const auto sphere = certified_circumsphere(corners(cell.vertex), relative_center_error);
         cell.center = sphere.center;
         cell.squared_radius = sphere.certified ? sphere.squared_radius : std::numeric_limits<double>::quiet_NaN();
     });
@@ -118,7 +149,7 @@ void CompactDelaunay::copy_tessellation() {
         const auto split_of = [&](std::size_t k) {
             return cells_[static_cast<std::size_t>(split(static_cast<std::int32_t>(i), k))].center;
         };
-        parts_[i].of_vertex = cell_parts<Vec3, double>(corners(ordered[i].second), cells_[i].center,
+        parts_[i].of_vertex = cell_parts<Vec3, double>(corners(ordered[i].vertex), cells_[i].center,
                                                        {split_of(0), split_of(1), split_of(2), split_of(3)});
     });
 }

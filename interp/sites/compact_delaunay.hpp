@@ -28,8 +28,10 @@ class CompactDelaunay : public CompactCells {
         bool strictly_inside;  ///< not on one of its facets, so there is no other cell to choose
     };
 
-    /// About 5 µs a site. \pre sites are distinct, acceptable, in Morton order (so that cells come out the same for any
-    /// order of rows); fewer than 2^31 cells, which is some 300 million sites.
+    /// About 5 µs a site. Cells, and corners within each, are in an order that follows from the sites alone; where a
+    /// few sites of the same box are exchanged, the order of all others stays. \pre sites are distinct, acceptable, in
+    /// Morton order (so that cells come out the same for any order of rows); fewer than 2^31 cells, which is some 300
+    /// million sites.
     explicit CompactDelaunay(std::span<const Vec3> sites);
     ~CompactDelaunay();
 

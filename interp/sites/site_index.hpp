@@ -45,6 +45,11 @@ class SiteIndex {
     /// is visible
     [[nodiscard]] double shortest_way(const ValueQuery& query, double straight) const;
 
+    /// WaysRound::changed_since; none without barriers.
+    [[nodiscard]] std::vector<std::pair<Vec3, double>> changed_ways(const SiteIndex& before) const {
+        return ways_ && before.ways_ ? ways_->changed_since(*before.ways_) : std::vector<std::pair<Vec3, double>>();
+    }
+
     /// Distances are those in these coordinates.
     [[nodiscard]] const Metric& metric() const { return metric_; }
 

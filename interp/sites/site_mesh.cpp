@@ -153,6 +153,7 @@ void SiteMesh::number_as_given(Weights& out) const {
 
 void SiteMesh::nearest_visible(const SiteQuery& q, Weights& out) const {
     out.fallback = true;
+    out.wide = true;
     out.hidden = 1;
     thread_local std::vector<NearSite> near;
     near.clear();

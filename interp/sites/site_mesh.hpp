@@ -66,6 +66,8 @@ class SiteMesh {
     /// The sites by the tessellation's numbers, in its coordinates.
     [[nodiscard]] const SiteTree& tree() const { return index_.tree(); }
 
+    [[nodiscard]] const SiteIndex& index() const { return index_; }
+
     /// 0 where a fault is in the way, 1 where none is near it (BarrierQuery::openness).
     [[nodiscard]] double openness(const Vec3& place, std::int32_t vertex) const;
 

@@ -35,6 +35,18 @@ void WaysRound::find() const {
     }
 }
 
+std::vector<std::pair<Vec3, double>> WaysRound::changed_since(const WaysRound& before) const {
+    std::call_once(before.wanted_, [&] { before.find(); });
+    std::call_once(wanted_, [&] { find(); });
+    std::vector<std::pair<Vec3, double>> changed;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        if (onwards_[i] != before.onwards_[i]) {
+            changed.emplace_back(at_[i], std::min(onwards_[i], before.onwards_[i]));
+        }
+    }
+    return changed;
+}
+
 double WaysRound::shorter(const Vec3& place, double straight) const {
     std::call_once(wanted_, [&] { find(); });
     const Vec3 at = metric_(place);

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "interp/anisotropy.hpp"
@@ -24,6 +25,10 @@ class WaysRound {
 
     /// \param straight  to_site(place)
     [[nodiscard]] double shorter(const Vec3& place, double straight) const;
+
+    /// Places where ways turn from which the rest of the way is another than it was, in the metric, and that rest, the
+    /// shorter of the two. \pre Barriers and metric are the same.
+    [[nodiscard]] std::vector<std::pair<Vec3, double>> changed_since(const WaysRound& before) const;
 
   private:
     void find() const;

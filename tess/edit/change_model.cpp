@@ -93,12 +93,21 @@ void set_barriers(const Model& before, Model& model, ChangeReport& report, const
     model.barriers = std::move(barriers);
 }
 
-/// Those that are not there any more, by another place or of new estimates.
-std::vector<std::uint32_t> to_value(const Tessellation& tessellation, std::uint64_t first_new, bool all) {
+/// New ones, and those whose estimates may be others.
+std::vector<std::uint32_t> to_value(std::span<const Vertex> vertices, const VertexValues& values,
+                                    std::uint64_t first_new, bool same, const NextValues& next) {
+    std::vector<std::uint8_t> differs(vertices.size(), same ? 0 : 1);
+    if (!same && next.differs) {
+        std::vector<ValueQuery> queries;
+        queries.reserve(vertices.size());
+        for (const Vertex& vertex : vertices) {
+            queries.push_back(query_of(vertex));
+        }
+        differs = next.differs(queries, values.extrapolation);
+    }
     std::vector<std::uint32_t> which;
-    const auto vertices = tessellation.vertices();
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-        if (all || vertices[i].id >= first_new) {
+        if (differs[i] != 0 || vertices[i].id >= first_new) {
             which.push_back(i);
         }
     }
@@ -123,7 +132,7 @@ bool is_local_change(const Model& before, const ModelPlan& plan) {
 
 std::unique_ptr<TessellatedModel> change_model(
     const Model& before, Tessellation tessellation, ModelPlan plan,
-    const std::function<ValueSource(const Model&, const BarrierQuery&, bool same_values)>& factory,
+    const std::function<NextValues(const Model&, const BarrierQuery&, bool same_values, bool same_barriers)>& factory,
     ChangeReport& report, const Progress& progress, const RefineOptions& refine_options) {
     auto changed = std::make_unique<TessellatedModel>();
     Model& model = changed->model;
@@ -150,9 +159,11 @@ std::unique_ptr<TessellatedModel> change_model(
     report.seeds_in = next.counts.seeds_in;
     report.inserted_out = next.counts.inserted_out;
     report.outside_extent = next.counts.outside_extent;
-    const bool same = model.barriers == before.barriers && model.properties == before.properties &&
-                      same_values(model.samples, before.samples);
-    const ValueSource source = factory(model, barriers, same);
+    const bool same_barriers = model.barriers == before.barriers;
+    const bool same =
+        same_barriers && model.properties == before.properties && same_values(model.samples, before.samples);
+    const NextValues next_values = factory(model, barriers, same, same_barriers);
+    const ValueSource& source = next_values.source;
 
     delaunay::Core& core = delaunay::core(tessellation);
     for (const auto& [index, vertex] : next.next) {
@@ -168,12 +179,17 @@ std::unique_ptr<TessellatedModel> change_model(
     core.next_id = first_new + next.in.size();
     report_progress(progress, "estimate", 0);
     values.values.resize(model.properties.size(), std::vector<double>(core.vertices.size(), missing));
-    set_values(model, tessellation.vertices(), to_value(tessellation, first_new, !same), source, values);
+    const auto valued = to_value(tessellation.vertices(), values, first_new, same, next_values);
+    set_values(model, tessellation.vertices(), valued, source, values);
 
     RefineOptions options = refine_options;
     options.progress = progress;
-    if (model.criteria.has_variation() && !same) {  // any cell may vary otherwise than before
+    if (model.criteria.has_residual() && !same) {  // any cell may be off otherwise than before
         touched.boxes.assign(1, model.domain.hull);
+    } else if (model.criteria.has_variation()) {
+        touched.vertices.insert(touched.vertices.end(), valued.begin(), valued.end());
+        std::ranges::sort(touched.vertices);
+        touched.vertices.erase(std::ranges::unique(touched.vertices).begin(), touched.vertices.end());
     }
     report.refine = refine_around(touched, tessellation, values, model.domain, model.frame, barriers, model.criteria,
                                   model.properties, source, options);

@@ -6,11 +6,12 @@
 #include <cmath>
 
 namespace terratet {
-namespace {
 
 ValueQuery query_of(const Vertex& vertex) {
     return {vertex.position, vertex.role == Role::seed ? vertex.owner : -1, vertex.side};
 }
+
+namespace {
 
 /// Is there nothing to estimate?
 bool is_complete(const Model& model, const Vertex& vertex) {

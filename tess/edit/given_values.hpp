@@ -13,6 +13,9 @@
 
 namespace terratet {
 
+/// Where a vertex' value is asked for.
+ValueQuery query_of(const Vertex& vertex);
+
 /// Of all vertices of the model, in step with them.
 VertexValues measured_or_estimated(const Model& model, const ValueSource& source);
 

@@ -9,6 +9,8 @@
 #include <set>
 #include <thread>
 
+#include "interp/estimator_plan.hpp"
+#include "tess/edit/given_values.hpp"
 #include "tess/error.hpp"
 #include "tess/mesh/quality.hpp"
 #include "tess/site_edits.hpp"
@@ -178,6 +180,138 @@ TEST_CASE("X1: a moved borehole leaves cells and values that are far from it as 
         same += found != value_after.end() && found->second == before->model().vertex_values.values[1][v] ? 1 : 0;
     }
     CHECK(same > far / 10);
+}
+
+namespace {
+
+/// Holes on a shaken square, samples each 8 m; the second property is measured in some of them only.
+Site field_of_holes(int across) {
+    testing::Random random(3);
+    Site site;
+    site.properties = {{"f", "", Scale::linear, Kind::continuous, {}}, {"g", "", Scale::log10, Kind::continuous, {}}};
+    site.samples.values.resize(2);
+    for (int w = 0; w < across * across; ++w) {
+        const Vec3 collar = site.frame.snapped(
+            {60 * (w % across + random(0.2, 0.8)), 60 * (w / across + random(0.2, 0.8)), random(-5, 0)});
+        const Vec3 lean{random(-0.1, 0.1), random(-0.1, 0.1), -1};
+        Borehole hole{"W" + std::to_string(1000 + w), collar, {collar, collar + 120 * lean}, {0, 120}};
+        for (int i = 0; i < 15; ++i) {
+            const Vec3 p = site.frame.snapped(collar + (8 * i + 4) * lean);
+            site.samples.positions.push_back(p);
+            site.samples.borehole.push_back(w);
+            site.samples.depth.push_back(8 * i + 4);
+            site.samples.length.push_back(0);
+            site.samples.values[0].push_back(std::sin(p.x / 50) + p.z / 30 + random(-0.1, 0.1));
+            site.samples.values[1].push_back(w % 3 == 0 ? missing : std::pow(10, random(-8, -6)));
+        }
+        site.boreholes.push_back(std::move(hole));
+    }
+    return site;
+}
+
+/// Of vertices, by an estimator made for the model as it is.
+std::size_t values_that_differ(const Model& model) {
+    const BarrierQuery barriers = model_proximity(model);
+    const ModelEstimator anew(model, barriers, parse_estimator_plan(model.estimator));
+    const VertexValues values =
+        measured_or_estimated(model, [&](std::span<const ValueQuery> queries) { return anew.values(queries); });
+    std::size_t differ = 0;
+    for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+        bool equal = values.extrapolation[v] == model.vertex_values.extrapolation[v];
+        for (std::size_t p = 0; p < values.values.size(); ++p) {
+            const double a = values.values[p][v], b = model.vertex_values.values[p][v];
+            equal = equal && (a == b || (a != a && b != b));
+        }
+        differ += equal ? 0 : 1;
+    }
+    return differ;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "X1: edits estimate anew where samples tell something else, and all values are a new estimation's to the bit") {
+    for (const std::string name : {"natural", "linear:ratio3=0.5"}) {
+        for (const bool faulted : {false, true}) {
+            INFO(name << (faulted ? ", a fault" : ""));
+            Site site = field_of_holes(faulted ? 6 : 7);
+            if (faulted) {
+                site.surfaces = {testing::planar_fault("F", site.frame.snapped({180, 170, -60}), 20, 75, 90, 60, 20)};
+            }
+            BuildOptions options;
+            options.estimator = name;
+            options.criteria.l_min = 10;
+            options.criteria.l_max = 40;
+            LiveModel live(std::move(site), options);
+            REQUIRE(values_that_differ(live.model()) == 0);
+            testing::Random random(9);
+            const auto holes = live.model().boreholes.size();
+            for (int edit = 0; edit < 4; ++edit) {
+                ModelPlan plan = plan_of(live.model());
+                const std::string id = "W" + std::to_string(1000 + random.below(holes));
+                switch (edit % 4) {
+                    case 2: {  // other values at places that stay, and some that leave
+                        std::vector<bool> marked(plan.site.samples.size(), false);
+                        for (std::size_t i = 0; i < 5; ++i) {
+                            const std::size_t sample = random.below(marked.size());
+                            plan.site.samples.values[0][sample] += 0.3;
+                            marked[random.below(marked.size())] = true;
+                        }
+                        remove_samples(plan.site, marked);
+                        break;
+                    }
+                    case 3:
+                        plan.criteria.overrides.push_back(
+                            {ResolutionOverride::Where::box, {{50, 50, -90}, {110.0 + edit, 100, -30}}, {}, 5, 20});
+                        break;
+                    default:
+                        move_borehole(plan.site, id, plan.site.frame.snapped({random(-8, 8), random(-8, 8), 0}));
+                }
+                live.edit(std::move(plan));
+                CHECK(values_that_differ(live.model()) == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("A hole moved among many changes few estimates, and which those are is known") {
+    const Site site = field_of_holes(14);
+    BuildOptions options;
+    options.criteria.l_min = 20;
+    options.criteria.l_max = 80;
+    options.estimator = "natural:anisotropy=none";
+    LiveModel live(site, options);
+    const auto before = live.snapshot();
+    ModelPlan plan = plan_of(live.model());
+    move_borehole(plan.site, "W1106", plan.site.frame.snapped({5, -4, 0}));
+    live.edit(std::move(plan));
+    const Model& model = before->model();
+    const Model& after = live.model();
+    REQUIRE(before->source_of_values() != nullptr);
+    const BarrierQuery barriers = model_proximity(after);
+    const ModelEstimator anew(after, barriers, parse_estimator_plan(after.estimator));
+    std::vector<std::int64_t> same(after.samples.size());
+    for (std::size_t i = 0; i < same.size(); ++i) {
+        same[i] = after.samples.positions[i] == model.samples.positions[i] ? static_cast<std::int64_t>(i) : -1;
+    }
+    std::vector<ValueQuery> queries;
+    for (const Vertex& vertex : model.vertices) {
+        queries.push_back(query_of(vertex));
+    }
+    const auto differs =
+        anew.changes_since(*before->source_of_values(), same)->at(queries, model.vertex_values.extrapolation);
+    const auto told = static_cast<std::size_t>(std::ranges::count(differs, 1));
+    const ValueBatch was = before->source_of_values()->values(queries);
+    const ValueBatch is = anew.values(queries);
+    std::size_t differ = 0, missed = 0;
+    for (std::size_t v = 0; v < queries.size(); ++v) {
+        const bool other = was.values[0][v] != is.values[0][v];
+        differ += other ? 1 : 0;
+        missed += other && differs[v] == 0 ? 1 : 0;
+    }
+    CHECK(differ > 0);
+    CHECK(missed == 0);
+    CHECK(told < queries.size() / 3);
 }
 
 TEST_CASE("Uncertainty becomes properties of the model, and none of a snapshot that somebody holds") {

@@ -27,7 +27,7 @@ struct Edited {
 
     void apply(ModelPlan plan) {
         report = {};
-        const auto factory = [](const Model& of, const BarrierQuery& barriers, bool) {
+        const auto factory = [](const Model& of, const BarrierQuery& barriers, bool, bool) -> NextValues {
             return testing::analytic_field()(of, barriers);
         };
         auto changed = change_model(model, std::move(tessellation), std::move(plan), factory, report);

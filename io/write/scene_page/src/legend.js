@@ -4,7 +4,10 @@
 import { byId, make, rows, svg } from './dom.js';
 import { colorAt, css, numberText, tickStep, ticks, toScale } from './scale.js';
 
-const titleOf = ({ name, unit }) => (unit ? `${name} [${unit}]` : name);
+/** With the unit, once: a column's header may say it itself. */
+export function titleOf({ name, unit }) {
+  return !unit || name.endsWith(`(${unit})`) || name.endsWith(`[${unit}]`) ? name : `${name} [${unit}]`;
+}
 
 export function drawLegend(box, property, anchors, [low, high]) {
   const parts = [make('h2', {}, titleOf(property))];

@@ -80,6 +80,7 @@ class Query(Case):
         self.assertEqual((known["boreholes"], known["samples"]), (4, 1292))
         self.assertIn("uncertainty:sd=%r:half_width=%r:" % (known["factor_sd"], known["factor_95"]),
                       json.loads(self.succeed("info", "--json", "u.gpkg").stdout)["estimator"])
+        self.assertIn("\n  uncertainty:sd=", self.succeed("info", "u.gpkg").stdout)
         points = self.write("p.csv", text)
         asked = lambda model, *a: list(csv.reader(io.StringIO(self.succeed("query", model, "value", points, *a).stdout)))
         self.assertEqual(asked("u.gpkg"), asked("m.gpkg"))

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -112,6 +115,22 @@ std::string row_text(const Json& row) {
     return out;
 }
 
+/// A list's, or the lines of a text that has several; none: it stands beside its key.
+std::vector<std::string> rows_of(const Json& value) {
+    std::vector<std::string> rows;
+    if (value.is_array() && !value.empty() && value.front().is_object()) {
+        for (const auto& row : value) {
+            rows.push_back(row_text(row));
+        }
+    } else if (value.is_string() && value.get_ref<const std::string&>().find('\n') != std::string::npos) {
+        std::istringstream lines(value.get<std::string>());
+        for (std::string line; std::getline(lines, line);) {
+            rows.push_back(printable(line));
+        }
+    }
+    return rows;
+}
+
 }  // namespace
 
 Json describe_model(const Model& model, const std::vector<JournalEntry>& journal) {
@@ -171,13 +190,10 @@ Json describe_surfaces(const RawSurfaces& raw, const Diagnostics& diagnostics) {
 std::string as_text(const Json& description) {
     std::string out;
     for (const auto& [key, value] : description.items()) {
-        const bool list = value.is_array() && !value.empty() && value.front().is_object();
-        out +=
-            list ? fmt::format("{}\n", key) : fmt::format("{:12}{}\n", key, value.empty() ? "none" : row_text(value));
-        if (list) {
-            for (const auto& row : value) {
-                out += "  " + row_text(row) + "\n";
-            }
+        const std::vector<std::string> rows = rows_of(value);
+        out += rows.empty() ? fmt::format("{:12}{}\n", key, value.empty() ? "none" : row_text(value)) : key + "\n";
+        for (const std::string& row : rows) {
+            out += "  " + row + "\n";
         }
     }
     return out;

@@ -137,7 +137,8 @@ void note_classes(const Table& table, const std::vector<std::size_t>& columns, D
                                  columns.size() == 1 ? "it" : "the first"));
 }
 
-std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names, Diagnostics& diagnostics) {
+/// The columns that hold numbers; of a table on its own without any, the one column of classes.
+std::vector<Choice> default_columns(const Table& table, const ColumnNames& names, Diagnostics& diagnostics) {
     const std::vector<bool> known = columns_with_meaning(table, names);
     std::vector<Choice> result;
     std::vector<std::size_t> classes;
@@ -176,6 +177,13 @@ std::vector<Choice> numeric_columns(const Table& table, const ColumnNames& names
         }
         result.push_back(
             {Property{name, unit_of(table, column), Scale::linear, Kind::continuous, {}}, column, std::move(numbers)});
+    }
+    if (result.empty() && classes.size() == 1 && !table.stated.one_of_several) {
+        const std::string& name = table.columns[classes.front()];
+        diagnostics.note(
+            fmt::format("{}: no column holds numbers; the words of {} are taken as classes", table.file, name));
+        result.push_back({Property{name, "", Scale::linear, Kind::categorical, {}}, classes.front()});
+        return result;
     }
     note_classes(table, classes, diagnostics);
     return result;
@@ -360,7 +368,7 @@ std::size_t PropertyCatalogue::index_of(const Property& property) {
 std::vector<ValueColumn> PropertyCatalogue::read(Table& table, const ColumnNames& columns, Diagnostics& diagnostics) {
     seen_columns_.insert(seen_columns_.end(), table.columns.begin(), table.columns.end());
     std::vector<Choice> choices =
-        wanted_.empty() ? numeric_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
+        wanted_.empty() ? default_columns(table, columns, diagnostics) : wanted_columns(table, wanted_);
     if (choices.empty() && wanted_.empty() && !table.stated.one_of_several) {
         throw InputError(
             fmt::format("{}: no numeric column to take for a property; columns: {}; `properties` "

@@ -32,7 +32,8 @@ class PropertyCatalogue {
     explicit PropertyCatalogue(const std::vector<std::string>& wanted, const std::vector<std::string>& nulls = {});
 
     /// Reads a table's property columns. Without `wanted` those are the columns that carry no known meaning and hold
-    /// numbers in at least half of their non-empty cells (others with a number in them are noted). Empty cells, NA,
+    /// numbers in at least half of their non-empty cells (others with a number in them are noted); where none does, the
+    /// one column whose words come again, as classes (noted). Empty cells, NA,
     /// N/A, NaN, null, none and - are missing, and so are what `nulls` say and usual codes far outside the other values
     /// (noted; io/read/tables/null_codes.hpp); "<0.005" counts as its bound, and is marked as censored (noted), as are
     /// values that a column of signs beside them qualifies (io/read/tables/qualifiers.hpp); any other text is rejected

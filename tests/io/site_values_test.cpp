@@ -95,6 +95,19 @@ TEST_CASE("words that come again are told as possible classes, in one note; rema
     CHECK_FALSE(result.noted("REMARK"));
 }
 
+TEST_CASE("words of a log without numbers are classes where one column holds such; of several the user chooses") {
+    Case hole;
+    hole.collars(two_collars).log("BHID,DEPTH,LITH\nA,1,clay\nA,2,sand\nA,3,clay\nA,4,sand\n");
+    const Read result = read(hole.inputs);
+    REQUIRE(result.site.properties.size() == 1);
+    CHECK(result.site.properties[0].kind == Kind::categorical);
+    CHECK(result.site.properties[0].classes == std::vector<std::string>{"clay", "sand"});
+    CHECK(result.noted("no column holds numbers; the words of LITH are taken as classes"));
+    Case two;
+    two.collars(two_collars).log("BHID,DEPTH,LITH,UNIT\nA,1,clay,U\nA,2,sand,U\nA,3,clay,V\nA,4,sand,V\n");
+    CHECK_THAT(error_of(two.inputs), Contains("no numeric column") && Contains("LITH, UNIT"));
+}
+
 TEST_CASE("text that is not UTF-8 is taken for Windows-1252, and the model can be stored") {
     Case old;
     old.collars("BHID,X,Y,Z\nK\xE4rn,0,0,0\n")

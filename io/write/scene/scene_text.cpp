@@ -85,7 +85,11 @@ std::string short_unit(const Frame& frame) {
 
 std::string honesty(const Scene& scene, const ModelView& view) {
     const Model& model = view.model;
-    std::string text = grouped(model.samples.size()) + " samples in " + grouped(model.boreholes.size()) + " boreholes";
+    const auto counted = [](std::size_t n, const char* what) { return grouped(n) + " " + what + (n == 1 ? "" : "s"); };
+    std::string text = counted(model.samples.size(), "sample");
+    if (!model.boreholes.empty()) {
+        text += " in " + counted(model.boreholes.size(), "borehole");
+    }
     if (scene.coloring.has_property() && !scene.coloring.categorical()) {
         if (const double r2 = r_squared(view, scene.coloring.index()); std::isfinite(r2)) {
             text += " · R² " + number_text(r2, 3) + " (" + scene.coloring.property().name + ")";

@@ -28,8 +28,11 @@ class Tolerance(Case):
         return json.loads((self.folder / "r.json").read_text()), result.stderr.replace("\n          ", " ")
 
     def test_keeps_what_distance_loses_and_says_how_well(self):
-        report, _ = self.build("--tolerance", "au=0.5")
+        report, told = self.build("--tolerance", "au=0.5")
         fit = report["fidelity"]["au"]
+        samples = report["fidelity"]["rock"]["count"]
+        missed = round(report["fidelity"]["rock"]["rms"] ** 2 * samples)
+        self.assertIn(f"rock: the class of {samples - missed} of {samples} samples is met", told)
         self.assertEqual(fit["tolerance"], 0.5)
         self.assertGreater(fit["r2"], 0.95)
         self.assertEqual(fit["beyond_tolerance"], sum(fit["reasons"].values()))

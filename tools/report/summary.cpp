@@ -82,8 +82,14 @@ std::string empty_block_text(const EmptyBlock& block, const std::string& unit) {
                        block.of_all ? "" : " of " + properties);
 }
 
-/// "Fidelity  K: R2 0.97, rms 0.1 of sd 0.6, largest 0.4 decades at 1,292 samples; 3 beyond the tolerance 0.2: …".
+/// "Fidelity  K: R2 0.97, rms 0.1 of sd 0.6, largest 0.4 decades at 1,292 samples; 3 beyond the tolerance 0.2: …"; of
+/// classes "lith: the class of 1,290 of 1,292 samples is met".
 std::string fidelity_text(const Property& property, const Fidelity& fit) {
+    if (property.kind == Kind::categorical) {  // each error is 0 or 1
+        const auto missed = static_cast<std::size_t>(std::llround(fit.rms * fit.rms * static_cast<double>(fit.count)));
+        return fmt::format("{}: the class of {} of {} is met", property.name, grouped(fit.count - missed),
+                           counted(fit.count, "sample"));
+    }
     std::string text =
         fmt::format("{}: R2 {:.3g}, rms {:.3g} of sd {:.3g}, largest {:.3g}{} at {}", property.name, fit.r2, fit.rms,
                     fit.sd, fit.max, property.scale == Scale::log10 ? " decades" : "", counted(fit.count, "sample"));

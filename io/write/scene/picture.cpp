@@ -117,7 +117,10 @@ class Axes {
             const double t = (tick.value - a) / (b - a);
             const Vec3 at = flat(from + t * (to - from));
             canvas_.line(at.x, at.y, at.x + 0.4 * size_ * outwards.x, at.y + 0.4 * size_ * outwards.y, 1, faint);
-            put(at + 0.75 * size_ * outwards, outwards, number_text(tick.value, 10));
+            const Vec3 beside = at + 0.75 * size_ * outwards;
+            if (!is_taken(place(beside, outwards, number_text(tick.value, 10)))) {  // at the corner of a narrow box
+                put(beside, outwards, number_text(tick.value, 10));
+            }
         }
         const std::string title = name + " [" + short_unit(frame) + "]";
         const Vec3 middle = 0.5 * (flat(from) + flat(to));

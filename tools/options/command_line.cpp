@@ -108,8 +108,9 @@ Values sort_arguments(const Syntax& syntax, const std::vector<std::string>& argu
         throw UsageError(one_line(error.what()));
     }
     if (static_cast<int>(rest.size()) < syntax.positional.min) {
-        throw UsageError(
-            fmt::format("{} is missing; usage: 'terratet help {}'", syntax.positional.name, syntax.command));
+        const bool several = syntax.positional.name.find(" and ") != std::string::npos;
+        throw UsageError(fmt::format("{} {}; usage: 'terratet help {}'", syntax.positional.name,
+                                     several ? "are needed" : "is missing", syntax.command));
     }
     if (static_cast<int>(rest.size()) > syntax.positional.max) {
         refuse_extra(syntax, rest[static_cast<std::size_t>(syntax.positional.max)]);

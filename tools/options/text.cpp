@@ -29,7 +29,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-    std::size_t least = (word.size() + 2) / 3 + 1;
+    std::size_t least = (word.size() + 1) / 3 + 1;
     std::string nearest;
     for (const auto& candidate : candidates) {
         if (const auto distance = edit_distance(word, candidate); distance < least) {

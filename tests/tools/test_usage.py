@@ -81,6 +81,10 @@ class Usage(Case):
             result = self.run_terratet(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn(f"did you mean {meant}?", result.stderr)
+        for verb in ("undo", "remove-borehole"):
+            result = self.run_terratet(verb, "m.gpkg")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"terratet edit MODEL.gpkg {verb}", result.stderr)
 
 
 if __name__ == "__main__":

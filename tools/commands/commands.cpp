@@ -6,6 +6,7 @@
 
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
+#include "tools/options/edit_options.hpp"
 #include "tools/options/text.hpp"
 
 namespace terratet::tools {
@@ -29,6 +30,9 @@ const CommandEntry& find_command(const std::string& name) {
         const std::string nearest = nearest_word(name, {"--help", "--version", "--json-usage"});
         throw UsageError(fmt::format("unknown option {}{}; a command comes first: 'terratet help' lists them", name,
                                      nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+    }
+    if (std::ranges::find(edit_verbs(), name) != edit_verbs().end() || name == "undo" || name == "redo") {
+        throw UsageError(fmt::format("'{0}' is an edit of a model: terratet edit MODEL.gpkg {0} …", name));
     }
     const std::string nearest = nearest_word(name, names);
     throw UsageError(nearest.empty() ? fmt::format("unknown command '{}'; 'terratet help' lists them", name)

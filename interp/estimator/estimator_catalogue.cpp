@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -184,22 +185,16 @@ const EstimatorMethod& estimator_method(const std::string& name) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const EstimatorMethod& method) { return method.name == name; });
     if (found == all.end()) {
-        std::string known;
-        for (const auto& method : all) {
-            known += (known.empty() ? "" : ", ") + method.name;
-        }
-        throw UsageError("estimator '" + name + "' is not known; there are " + known);
+        const auto known = names_of(all, &EstimatorMethod::name);
+        throw UsageError("estimator '" + name + "' is not known; there are " + listed(known) +
+                         did_you_mean(name, known));
     }
     return *found;
 }
 
 std::string wanted(const EstimatorOption& option) {
     if (!option.words.empty()) {
-        std::string list;
-        for (const auto& word : option.words) {
-            list += (list.empty() ? "" : ", ") + word;
-        }
-        return "one of " + list;
+        return "one of " + listed(option.words);
     }
     const EstimatorOption any;
     const std::string noun = option.whole ? "a whole number" : "a number";

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interp/estimator/estimator_catalogue.hpp"
 #include "interp/base/number_text.hpp"
+#include "interp/estimator/estimator_catalogue.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -28,16 +29,15 @@ void add_option(EstimatorSpec& spec, const EstimatorMethod& method, const std::s
     const auto option = std::find_if(method.options.begin(), method.options.end(),
                                      [&](const EstimatorOption& candidate) { return candidate.name == key; });
     if (option == method.options.end()) {
-        std::string known;
-        for (const auto& candidate : method.options) {
-            known += (known.empty() ? "" : ", ") + candidate.name;
-        }
-        throw UsageError("estimator '" + method.name + "' has no option '" + key + "'; it has " +
-                         (known.empty() ? "none" : known));
+        const auto known = names_of(method.options, &EstimatorOption::name);
+        throw UsageError("estimator '" + method.name + "' has no option '" + key + "'; it has " + listed(known) +
+                         did_you_mean(key, known));
     }
     if (option->flag ? equals != std::string::npos : !valid(*option, value)) {
-        throw UsageError("estimator '" + method.name + "': " +
-                         (option->flag ? key + " takes no value" : key + "='" + value + "' is not " + wanted(*option)));
+        throw UsageError(
+            "estimator '" + method.name + "': " +
+            (option->flag ? key + " takes no value"
+                          : key + "='" + value + "' is not " + wanted(*option) + did_you_mean(value, option->words)));
     }
     if (!spec.options.emplace(key, value).second) {
         throw UsageError("estimator '" + method.name + "': " + key + " is given twice");

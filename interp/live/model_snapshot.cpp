@@ -11,6 +11,7 @@
 #include "interp/estimator_plan.hpp"
 #include "interp/plan/uncertainty.hpp"
 #include "tess/error.hpp"
+#include "tess/site_edits.hpp"
 
 namespace terratet {
 namespace {
@@ -203,11 +204,7 @@ const ModelEstimator& ModelSnapshot::estimator_with_errors() const {
 
 std::vector<std::uint32_t> ModelSnapshot::neighbours_of(const std::string& borehole) const {
     const Model& model = this->model();
-    const auto found = std::ranges::find(model.boreholes, borehole, &Borehole::id);
-    if (found == model.boreholes.end()) {
-        throw UsageError("there is no borehole '" + borehole + "'");
-    }
-    const auto number = static_cast<std::int32_t>(found - model.boreholes.begin());
+    const auto number = static_cast<std::int32_t>(find_borehole(model, borehole));
     std::vector<char> own(model.vertices.size(), 0);
     for (std::size_t v = 0; v < own.size(); ++v) {
         const Vertex& vertex = model.vertices[v];

@@ -6,16 +6,18 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 
 namespace {
 
-constexpr std::array<const char*, 5> keys{"layer", "srs", "where", "sql", "oo"};
+constexpr std::array keys{"layer", "srs", "where", "sql", "oo"};
 
 bool is_known(const std::string& key) {
     return std::ranges::find(keys, key) != keys.end();
@@ -43,7 +45,8 @@ std::size_t end_of_part(const std::string& text, std::size_t begin, bool file_na
         }
         if (key && file_name) {
             throw UsageError("unknown key '" + *key + "' in '" + text +
-                             "': after the file come layer=, srs=, where=, sql=, oo=");
+                             "': after the file come layer=, srs=, where=, sql=, oo=" +
+                             did_you_mean(*key, names_of(keys, std::identity())));
         }
     }
     return text.size();
@@ -132,7 +135,8 @@ Source parse_source(const std::string& text) {
 double metres_in_unit(const std::string& unit) {
     const auto* found = std::ranges::find_if(units, [&](const Unit& known) { return unit == known.name; });
     if (found == units.end()) {
-        throw UsageError("unknown unit of length '" + unit + "': one of mm, cm, m, km, ft, usft, in, yd, mi");
+        const auto known = names_of(units, &Unit::name);
+        throw UsageError("unknown unit of length '" + unit + "': one of " + listed(known) + did_you_mean(unit, known));
     }
     return found->metres;
 }

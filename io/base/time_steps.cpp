@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "io/base/parse_number.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -65,12 +66,9 @@ std::string require_time(const std::vector<Property>& properties, const std::str
     std::string label = time_label(time);
     const auto steps = time_steps(properties);
     if (std::ranges::find(steps, label) == steps.end()) {
-        std::string known;
-        for (const std::string& step : steps) {
-            known += (known.empty() ? "" : ", ") + step;
-        }
         throw UsageError("no time '" + time + "'; " +
-                         (known.empty() ? "the model's values do not change with time" : "there are " + known));
+                         (steps.empty() ? "the model's values do not change with time" : "there are " + listed(steps)) +
+                         did_you_mean(time, steps));
     }
     return label;
 }

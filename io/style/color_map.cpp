@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -60,7 +61,6 @@ std::array<std::uint8_t, 4> to_linear_rgba8(const Color& color) {
 }
 
 ColorMap ColorMap::named(const std::string& name) {
-    std::string choices;
     for (const NamedMap& map : maps) {
         if (name == map.name) {
             std::vector<Color> anchors;
@@ -69,17 +69,12 @@ ColorMap ColorMap::named(const std::string& name) {
             }
             return ColorMap(std::move(anchors));
         }
-        choices += (choices.empty() ? "" : ", ") + std::string(map.name);
     }
-    throw UsageError("unknown colour map '" + name + "'; there are " + choices);
+    throw UsageError("unknown colour map '" + name + "'; there are " + listed(names()) + did_you_mean(name, names()));
 }
 
 std::vector<std::string> ColorMap::names() {
-    std::vector<std::string> result;
-    for (const NamedMap& map : maps) {
-        result.emplace_back(map.name);
-    }
-    return result;
+    return names_of(maps, &NamedMap::name);
 }
 
 Color ColorMap::at(double t) const {

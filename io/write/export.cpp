@@ -9,6 +9,7 @@
 
 #include "interp/plan/uncertainty.hpp"
 #include "io/voxels/write_voxels.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -46,6 +47,14 @@ constexpr Format formats[] = {
     {"VOXELTILES", ".voxeltiles", nullptr, false},
 };
 
+/// What `format` may be: each name, and each extension without its dot.
+std::vector<std::string> format_words() {
+    auto words = names_of(formats, &Format::name);
+    const auto extensions = names_of(formats, [](const Format& format) { return format.extension + 1; });
+    words.insert(words.end(), extensions.begin(), extensions.end());
+    return words;
+}
+
 std::string choices() {
     return export_extensions() + " and .json, or `format` " + export_format_names();
 }
@@ -64,7 +73,8 @@ const Format& format_of(const std::string& path, const std::string& override_for
                 return format;
             }
         }
-        throw UsageError("unknown output format '" + override_format + "'; there are " + choices());
+        throw UsageError("unknown output format '" + override_format + "'; there are " + choices() +
+                         did_you_mean(override_format, format_words()));
     }
     const std::string extension = with_case(std::filesystem::path(path).extension().string(), std::tolower);
     for (const Format& format : formats) {
@@ -72,7 +82,8 @@ const Format& format_of(const std::string& path, const std::string& override_for
             return format;
         }
     }
-    throw UsageError("'" + path + "' does not tell its format by its extension; there are " + choices());
+    throw UsageError("'" + path + "' does not tell its format by its extension; there are " + choices() +
+                     did_you_mean(extension, names_of(formats, &Format::extension)));
 }
 
 }  // namespace

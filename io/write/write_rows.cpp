@@ -14,6 +14,7 @@
 #include "io/base/gdal_scope.hpp"
 #include "io/base/lower_case.hpp"
 #include "io/base/output_file.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -195,7 +196,8 @@ std::unique_ptr<RowSink> rows_to_file(const std::string& path, const std::string
     }
     const auto found = drivers.find(extension);
     if (found == drivers.end()) {
-        throw UsageError(path + ": rows are written as .csv, .geojson, .gpkg, .fgb, .sqlite, .xlsx, .ods or .tab");
+        const std::vector<std::string> known{"csv", "geojson", "gpkg", "fgb", "sqlite", "xlsx", "ods", "tab"};
+        throw UsageError(path + ": rows are written as ." + listed(known) + did_you_mean(extension, known));
     }
     return std::make_unique<OgrFile>(path, found->second, layer, frame, overwrite);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -51,7 +52,8 @@ Property parse_property(const std::string& text) {
             property.unit = part.substr(5);
         } else {
             throw UsageError("property '" + text + "': '" + part +
-                             "' is not known; write NAME[:log10][:categorical][:unit=U]");
+                             "' is not known; write NAME[:log10][:categorical][:unit=U]" +
+                             did_you_mean(part, {"log10", "linear", "categorical", "unit="}));
         }
     }
     if (property.kind == Kind::categorical && property.scale == Scale::log10) {

@@ -4,26 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <ranges>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
 namespace {
 
-/// Names for a message: the first few.
-template <typename Items, typename Name>
-std::string listed(const Items& items, const Name& name) {
-    std::string text;
-    std::size_t count = 0;
-    for (const auto& item : items) {
-        if (++count > 8) {
-            return text + ", …";
-        }
-        text += (text.empty() ? "" : ", ") + std::invoke(name, item);
-    }
-    return text.empty() ? "none" : text;
-}
+constexpr std::size_t most_named = 8;  ///< in a message
 
 bool removable(const Surface& surface) {
     return !is_bound(surface.kind);
@@ -86,7 +75,9 @@ Vec3 brought(const Vec3& p, const Frame& from, const Frame& to) {
 std::size_t find_borehole(const Site& site, const std::string& id) {
     const auto found = std::ranges::find(site.boreholes, id, &Borehole::id);
     if (found == site.boreholes.end()) {
-        throw UsageError("there is no borehole '" + id + "'; there is " + listed(site.boreholes, &Borehole::id));
+        const auto known = names_of(site.boreholes, &Borehole::id);
+        throw UsageError("there is no borehole '" + id + "'; there is " + listed(known, most_named) +
+                         did_you_mean(id, known));
     }
     return static_cast<std::size_t>(found - site.boreholes.begin());
 }
@@ -129,10 +120,9 @@ void move_borehole(Site& site, const std::string& id, const Vec3& by) {
 void remove_surface(Site& site, const std::string& name) {
     const auto named = [&](const Surface& surface) { return surface.name == name && removable(surface); };
     if (std::erase_if(site.surfaces, named) == 0) {
-        std::vector<Surface> there;
-        std::ranges::copy_if(site.surfaces, std::back_inserter(there), removable);
+        const auto known = names_of(site.surfaces | std::views::filter(removable), &Surface::name);
         throw UsageError("there is no surface '" + name + "' that can be removed; there is " +
-                         listed(there, &Surface::name));
+                         listed(known, most_named) + did_you_mean(name, known));
     }
 }
 

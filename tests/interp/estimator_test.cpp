@@ -63,7 +63,8 @@ TEST_CASE("Estimator specifications are written out with every default") {
 
 TEST_CASE("Wrong estimator specifications are refused with what there is") {
     CHECK(message_of("kringing") ==
-          "estimator 'kringing' is not known; there are natural, laplace, linear, idw, kriging, nearest, auto");
+          "estimator 'kringing' is not known; there are natural, laplace, linear, idw, kriging, nearest, auto; "
+          "did you mean kriging?");
     CHECK(message_of("").find("there are natural, laplace, linear, idw, kriging, nearest, auto") != std::string::npos);
     CHECK(message_of("idw:pwr=2") ==
           "estimator 'idw' has no option 'pwr'; it has power, radius, max_points, "

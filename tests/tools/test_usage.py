@@ -81,6 +81,21 @@ class Usage(Case):
             result = self.run_terratet(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn(f"did you mean {meant}?", result.stderr)
+        samples = self.write("s.csv", "x,y,z,grade\n1,2,3,4\n2,2,3,5\n1,3,3,6\n1,2,5,6\n")
+        for arguments, meant in ((["--estimator", "krigng"], "kriging"), (["--estimator", "IDW"], "idw"),
+                                 (["--estimator", "idw:powre=3"], "power"), (["--lmin", "20usf"], "usft"),
+                                 (["--estimator", "kriging:model=spherica"], "spherical"), (["--of", "vtk"], "VTU"),
+                                 (["--color-map", "virids"], "viridis"), (["--property", "grade:lg10"], "log10"),
+                                 (["--df-max", "grad=1"], "grade"),
+                                 (["--color", "grades"], "grade"), (["--iso", "grad=1"], "grade"),
+                                 (["--horizon", "sofd"], "soft"), (["--azimuth", "gird"], "grid"),
+                                 (["-co", "COMPRES=YES"], "COMPRESS"), (["--fault-gap", "colapse"], "collapse"),
+                                 (["--progress", "jsn"], "json"), (["--columns", "deph=a"], "depth"),
+                                 (["--samples", "s.csv,laier=a"], "layer"), (["--density", "papre"], "paper")):
+            result = self.run_terratet("convert", "--samples", samples, "-s_srs", "local", *arguments, "o.glb")
+            self.assertIn(f"did you mean {meant}?", " ".join(result.stderr.split()), arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+        self.assertIn("did you mean .vtu?", self.run_terratet("convert", "--samples", samples, "o.vtuu").stderr)
         for verb in ("undo", "remove-borehole"):
             result = self.run_terratet(verb, "m.gpkg")
             self.assertEqual(result.returncode, 2)

@@ -6,15 +6,6 @@
 
 using namespace terratet::tools;
 
-TEST_CASE("The nearest word is the one with the fewest edits, and far words are none") {
-    const std::vector<std::string> names{"lmin", "lmax", "overwrite", "estimator"};
-    CHECK(nearest_word("lmim", names) == "lmin");
-    CHECK(nearest_word("overwite", names) == "overwrite");
-    CHECK(nearest_word("estimater", names) == "estimator");
-    CHECK(nearest_word("banana", names).empty());
-    CHECK(nearest_word("lm", names).empty());
-}
-
 TEST_CASE("Wrapping breaks at blanks, indents what follows and keeps long words whole") {
     CHECK(wrapped("one two three", 0, 2, 8) == "one two\n  three");
     CHECK(wrapped("one two", 5, 5, 9) == "one\n     two");

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/edit_options.hpp"
-#include "tools/options/text.hpp"
 
 namespace terratet::tools {
 
@@ -27,16 +27,15 @@ const CommandEntry& find_command(const std::string& name) {
         names.push_back(entry.name);
     }
     if (name.starts_with('-')) {
-        const std::string nearest = nearest_word(name, {"--help", "--version", "--json-usage"});
         throw UsageError(fmt::format("unknown option {}{}; a command comes first: 'terratet help' lists them", name,
-                                     nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+                                     did_you_mean(name, {"--help", "--version", "--json-usage"})));
     }
     if (std::ranges::find(edit_verbs(), name) != edit_verbs().end() || name == "undo" || name == "redo") {
         throw UsageError(fmt::format("'{0}' is an edit of a model: terratet edit MODEL.gpkg {0} …", name));
     }
-    const std::string nearest = nearest_word(name, names);
-    throw UsageError(nearest.empty() ? fmt::format("unknown command '{}'; 'terratet help' lists them", name)
-                                     : fmt::format("unknown command '{}'; did you mean {}?", name, nearest));
+    const std::string meant = did_you_mean(name, names);
+    throw UsageError(
+        fmt::format("unknown command '{}'{}", name, meant.empty() ? "; 'terratet help' lists them" : meant));
 }
 
 }  // namespace terratet::tools

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <new>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command_line.hpp"
 #include "tools/options/field_names.hpp"
@@ -182,7 +183,12 @@ ordered_json LiveProtocol::result_of(const ordered_json& request) {
     if (asked("export")) {
         return export_files(*state, session_.path(), words_of(request["export"], "export"));
     }
-    throw UsageError("a request holds one of edit, script, query, section, export, subscribe");
+    const std::vector<std::string> known{"edit", "script", "query", "section", "export", "subscribe"};
+    std::string meant;
+    for (const auto& [key, value] : request.items()) {
+        meant = meant.empty() ? did_you_mean(key, known) : meant;
+    }
+    throw UsageError("a request holds one of " + listed(known) + meant);
 }
 
 ordered_json LiveProtocol::answer(const std::string& request) {

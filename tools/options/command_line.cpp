@@ -12,6 +12,7 @@
 
 #include "io/base/network.hpp"
 #include "io/read/tables/read_table.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
 

@@ -251,10 +251,11 @@ ExportArguments with_creation_options(ExportArguments a) {
         } else if (key == "FRAME") {
             a.frame = value;
         } else {
-            throw UsageError(fmt::format(
-                "-co: '{}' is not one of ALIGN, CLIP, COLOR, COLOR_MAP, COMPRESS, FAULT_GAP, FIELDS, FRAME, HALF, "
-                "LOCAL_ORIGIN, MARGIN, SPATIAL_INDEX, VERSION, VERTICAL_SRS, VORONOI, VOXEL_SIZE",
-                key));
+            const std::vector<std::string> known{"ALIGN",    "CLIP",         "COLOR",   "COLOR_MAP",
+                                                 "COMPRESS", "FAULT_GAP",    "FIELDS",  "FRAME",
+                                                 "HALF",     "LOCAL_ORIGIN", "MARGIN",  "SPATIAL_INDEX",
+                                                 "VERSION",  "VERTICAL_SRS", "VORONOI", "VOXEL_SIZE"};
+            throw UsageError(fmt::format("-co: '{}' is not one of {}{}", key, listed(known), did_you_mean(key, known)));
         }
     }
     a.creation_options.clear();

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interp/estimator/estimator_catalogue.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
 
@@ -193,13 +194,8 @@ std::string help_on(const std::string& subject) {
             return command_help(entry);
         }
     }
-    const std::string nearest = nearest_word(subject, help_subjects());
-    std::string list;
-    for (const auto& name : help_subjects()) {
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    throw UsageError(fmt::format("there is no help on '{}'{}; there is on {}", subject,
-                                 nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), list));
+    throw UsageError(fmt::format("there is no help on '{}'; there is on {}{}", subject, listed(help_subjects()),
+                                 did_you_mean(subject, help_subjects())));
 }
 
 }  // namespace terratet::tools

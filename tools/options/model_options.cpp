@@ -155,7 +155,8 @@ HardHorizons parse_horizon(const std::string& text) {
         hard.properties = split(text.substr(some.size()), ',');
     }
     if (hard.properties.empty() || std::ranges::count(hard.properties, std::string()) > 0) {
-        throw UsageError(fmt::format("--horizon: '{}' is not soft, hard, or hard=P,Q with names of properties", text));
+        throw UsageError(fmt::format("--horizon: '{}' is not soft, hard, or hard=P,Q with names of properties{}", text,
+                                     did_you_mean(text, {"soft", "hard"})));
     }
     return hard;
 }

@@ -91,7 +91,8 @@ void parse_azimuth(const std::string& text, SiteInputs& inputs) {
     } else if (text == "grid" || text == "true") {
         inputs.azimuth = text == "grid" ? AzimuthReference::grid : AzimuthReference::true_north;
     } else {
-        throw UsageError(fmt::format("--azimuth: '{}' is not one of grid, true, magnetic:DEGREES", text));
+        throw UsageError(fmt::format("--azimuth: '{}' is not one of grid, true, magnetic:DEGREES{}", text,
+                                     did_you_mean(text, {"grid", "true", "magnetic:"})));
     }
 }
 

@@ -4,42 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <utility>
 
 #include <fmt/format.h>
 
 namespace terratet::tools {
-namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
-}  // namespace
-
-std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-    std::size_t least = (word.size() + 1) / 3 + 1;
-    std::string nearest;
-    for (const auto& candidate : candidates) {
-        if (const auto distance = edit_distance(word, candidate); distance < least) {
-            least = distance;
-            nearest = candidate;
-        }
-    }
-    return nearest;
-}
-
 std::string wrapped(std::string_view text, std::size_t first_column, std::size_t indent, std::size_t width) {
     std::string out;
     std::size_t column = first_column;

@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// Text for people: wrapping, grouping, and guessing what was meant.
+/// Text for people: wrapping and grouping.
 
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace terratet::tools {
-
-/// The candidate with the smallest edit distance to `word` (ties: the first), or nothing when none comes near: more
-/// than a third of the letters differ.
-std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Breaks at blanks so that no line but one of a single word exceeds `width`; lines after the first start with `indent`
 /// blanks, and the first has `first_column` columns taken already.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/base/parse_number.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tess/model/tolerance.hpp"
 
@@ -46,11 +47,9 @@ std::vector<Property>::const_iterator find_property(const std::string& option, c
                                                     const std::vector<Property>& properties) {
     const auto found = std::ranges::find(properties, name, &Property::name);
     if (found == properties.end()) {
-        std::string known;
-        for (const auto& property : properties) {
-            known += (known.empty() ? "" : ", ") + property.name;
-        }
-        throw UsageError(fmt::format("{}: there is no property '{}'; there is {}", option, name, known));
+        const auto known = names_of(properties, &Property::name);
+        throw UsageError(fmt::format("{}: there is no property '{}'; there is {}{}", option, name, listed(known),
+                                     did_you_mean(name, known)));
     }
     return found;
 }

@@ -11,6 +11,7 @@
 #include "io/edit/samples_where.hpp"
 #include "io/read/tables/read_table.hpp"
 #include "io/read_site.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tess/site_edits.hpp"
 #include "tools/options/command_line.hpp"
@@ -216,10 +217,8 @@ void set(const EditArguments& a, ModelPlan& plan) {
         for (const auto& [name, taken] : options) {
             known.push_back(name);
         }
-        const std::string nearest = nearest_word(option, known);
-        throw UsageError(fmt::format("edit set: there is no option '{}'{}", option,
-                                     nearest.empty() ? fmt::format("; there is {}", fmt::join(known, ", "))
-                                                     : fmt::format("; did you mean {}?", nearest)));
+        throw UsageError(fmt::format("edit set: there is no option '{}'; there is {}{}", option, listed(known),
+                                     did_you_mean(option, known)));
     }
     found->second(parsed_option(option, value, plan.site));
     validate(c);
@@ -294,10 +293,8 @@ void apply_edit(const EditArguments& a, ModelPlan& plan, Diagnostics& diagnostic
     } else if (verb == "refine") {
         refine_box(a, next);
     } else {
-        const std::string nearest = nearest_word(verb, edit_verbs());
-        throw UsageError(nearest.empty()
-                             ? fmt::format("edit: '{}' is no verb; there is {}", verb, fmt::join(edit_verbs(), ", "))
-                             : fmt::format("edit: '{}' is no verb; did you mean {}?", verb, nearest));
+        throw UsageError(fmt::format("edit: '{}' is no verb; there is {}{}", verb, listed(edit_verbs()),
+                                     did_you_mean(verb, edit_verbs())));
     }
     plan = std::move(next);
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "io/base/time_steps.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/options/text.hpp"
@@ -151,10 +152,8 @@ void run_query(const ModelSnapshot& model, const QueryArguments& a, RowSink& sin
         for (const auto& [name, verb] : verbs) {
             names.push_back(name);
         }
-        const std::string nearest = nearest_word(a.words.front(), names);
-        throw UsageError(fmt::format(
-            "query: '{}' is not known; {}", a.words.front(),
-            nearest.empty() ? fmt::format("there is {}", fmt::join(names, ", ")) : "did you mean " + nearest + "?"));
+        throw UsageError(fmt::format("query: '{}' is not known; there is {}{}", a.words.front(), listed(names),
+                                     did_you_mean(a.words.front(), names)));
     }
     if (a.side != "+" && a.side != "-") {
         throw UsageError("query --side: '" + a.side + "' is neither + nor -");

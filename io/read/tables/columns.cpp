@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
 #include <string_view>
 
 #include "io/base/lower_case.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -69,11 +71,9 @@ std::string joined(const std::vector<std::string>& words) {
 void require_known_meanings(const ColumnNames& overrides) {
     for (const auto& [meaning, column] : overrides) {
         if (std::ranges::find(meaning_names, joined(words_of(meaning))) == meaning_names.end()) {
-            std::string known;
-            for (const char* name : meaning_names) {
-                known += (known.empty() ? "" : ", ") + std::string(name);
-            }
-            throw UsageError("`columns` " + meaning + "=" + column + ": no such meaning; there are " + known);
+            const auto known = names_of(meaning_names, std::identity());
+            throw UsageError("`columns` " + meaning + "=" + column + ": no such meaning; there are " + listed(known) +
+                             did_you_mean(meaning, known));
         }
     }
 }
@@ -96,14 +96,6 @@ int column_of_alias(const Table& table, Meaning meaning) {
         return static_cast<int>((meaning == Meaning::x ? east : north) - headers.begin());
     }
     return -1;
-}
-
-std::string list(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text;
 }
 
 }  // namespace
@@ -271,7 +263,8 @@ int find_column(const Table& table, Meaning meaning, const ColumnNames& override
     const auto named = std::ranges::find(overrides, to_string(meaning), &ColumnNames::value_type::first);
     if (column < 0 && named != overrides.end()) {
         throw UsageError("`columns` " + named->first + "=" + named->second + ": " + table.file +
-                         " has no such column; it has " + list(table.columns));
+                         " has no such column; it has " + listed(table.columns) +
+                         did_you_mean(named->second, table.columns));
     }
     return column;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -70,17 +71,17 @@ std::vector<LegendTick> legend_ticks(const Property& property, const ColorRange&
 Coloring::Coloring(const ModelView& view, const std::string& property, const std::string& map)
     : map_(ColorMap::named(map)), map_name_(map) {
     const auto& properties = view.model.properties;
-    std::string names;
     for (std::size_t p = 0; p < properties.size(); ++p) {
         if (property_ == nullptr && (property.empty() || properties[p].name == property)) {
             property_ = &properties[p];
             index_ = p;
         }
-        names += (names.empty() ? "" : ", ") + properties[p].name;
     }
     if (property_ == nullptr) {
         if (!property.empty()) {
-            throw UsageError("no property '" + property + "' to colour by; there are: " + names);
+            const auto names = names_of(properties, &Property::name);
+            throw UsageError("no property '" + property + "' to colour by; there are: " + listed(names) +
+                             did_you_mean(property, names));
         }
         return;
     }

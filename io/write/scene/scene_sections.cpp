@@ -8,6 +8,7 @@
 
 #include "io/write/scene/scene.hpp"
 #include "io/write/scene/scene_text.hpp"
+#include "tess/base/words.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -192,7 +193,9 @@ std::vector<IsoLevel> iso_levels(const Model& model, const ExportOptions& option
         const auto found = std::find_if(model.properties.begin(), model.properties.end(),
                                         [&](const Property& p) { return p.name == wanted.property; });
         if (found == model.properties.end()) {
-            throw UsageError("`iso`: no property '" + wanted.property + "'");
+            const auto names = names_of(model.properties, &Property::name);
+            throw UsageError("`iso`: no property '" + wanted.property + "'; there is " + listed(names) +
+                             did_you_mean(wanted.property, names));
         }
         if (found->kind == Kind::categorical) {
             throw UsageError("`iso`: '" + wanted.property + "' has classes, and no level between them");

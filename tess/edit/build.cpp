@@ -12,6 +12,7 @@
 #include "tess/edit/boundary.hpp"
 #include "tess/edit/build_defaults.hpp"
 #include "tess/edit/build_tolerance.hpp"
+#include "tess/edit/close_crossings.hpp"
 #include "tess/edit/given_values.hpp"
 #include "tess/edit/vertex_demand.hpp"
 #include "tess/error.hpp"
@@ -23,6 +24,9 @@
 namespace terratet {
 
 namespace {
+
+/// How often a build begins anew where an edge has crossed a fault: that is rare, and once is enough nearly always.
+constexpr int most_rounds = 8;
 
 class Stopwatch {
   public:
@@ -117,17 +121,70 @@ CellStatistics initial_statistics(const TessellatedModel& built) {
 
 /// Of all that was refined: the tables that stay, and what the report says of them.
 void describe(TessellatedModel& built, BuildReport& report) {
-    built.mesh = built.tessellation->mesh();
     built.cells = describe_cells(built.model, built.mesh, *built.barriers);
     for (const Reason reason : built.cells.reason) {
         if (reason != Reason::none && reason != Reason::fault_gap) {
             ++report.refine.skipped[reason];
         }
     }
-    report.fault_crossing_edges = fault_crossing_edges(built.model, built.mesh, *built.barriers).size();
     report.fidelity = fidelity(built.model, built.mesh, built.cells.barrier, *built.barriers);
     report.empty_blocks = empty_blocks(built.model, built.mesh, built.cells);
     report.final = cell_statistics(built.model, built.mesh, built.cells, *built.barriers);
+}
+
+/// Vertices, values and tessellation of a model whose site and boundary are ready.
+void tessellate(TessellatedModel& built, const BuildOptions& options, const ValueSourceFactory& factory,
+                BuildReport& report, const Progress& progress) {
+    Model& model = built.model;
+    model.vertices.clear();
+    built.barriers = model_proximity(model);
+    const BarrierQuery& proximity = *built.barriers;
+    InitialVertices initial(model);
+    {
+        const Stopwatch watch(report.seconds["density"]);
+        const Poll thinning = [&] { report_progress(progress, "density", 0); };
+        thinning();
+        const std::vector<std::uint32_t> inside = inside_extent(model, report);
+        retain_samples(options, inside, proximity, model, thinning);
+        report.density = thin(model, inside, options.density, proximity, thinning);
+        initial.add_samples(report.density.kept);
+    }
+    {
+        const Stopwatch watch(report.seconds["boundary"]);
+        initial.add_seeds();
+        report.seeds = model.vertices.size() - report.density.kept.size();
+        initial.add_box([&] { report_progress(progress, "boundary", 0); });
+        report.domain_vertices = model.vertices.size() - report.density.kept.size() - report.seeds;
+    }
+    ValueSource source;
+    double& estimating = report.seconds["estimate"];
+    {
+        const Stopwatch watch(estimating);
+        report_progress(progress, "estimate", 0);
+        source = factory(model, proximity);
+        set_residual_limits(options, model);
+        model.vertex_values = measured_or_estimated(model, source);
+    }
+    const ValueSource timed_source = [&](std::span<const ValueQuery> queries) {
+        const Stopwatch watch(estimating);
+        return source(queries);
+    };
+    Tessellation& tessellation = built.tessellation.emplace();
+    const Stopwatch watch(report.seconds["refine"]);
+    tessellation.insert(model.vertices, [&] { report_progress(progress, "tessellate", 0); });
+    report.initial = initial_statistics(built);
+    report.refine = {};
+    if (options.refine_enabled) {
+        RefineOptions refine_options = options.refine;
+        refine_options.progress = progress;
+        refine_options.enough_vertices = enough_vertices(options, model);
+        const double before = estimating;
+        report.refine = refine(tessellation, model.vertex_values, model.domain, model.frame, proximity, model.criteria,
+                               model.properties, timed_source, refine_options, dropped_samples(model, proximity));
+        report.seconds["refine"] -= estimating - before;
+    }
+    model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
+    built.mesh = tessellation.mesh();
 }
 
 }  // namespace
@@ -147,59 +204,22 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
         prepare_boundary(options, model, report, progress);
         name_regions(options, model);
     }
-    built->barriers = model_proximity(model);
-    const BarrierQuery& proximity = *built->barriers;
-    InitialVertices initial(model);
-    {
-        const Stopwatch watch(report.seconds["density"]);
-        const Poll thinning = [&] { report_progress(progress, "density", 0); };
-        thinning();
-        const std::vector<std::uint32_t> inside = inside_extent(model, report);
-        retain_samples(options, inside, proximity, model, thinning);
-        report.density = thin(model, inside, options.density, proximity, thinning);
-        initial.add_samples(report.density.kept);
-    }
-    {
-        const Stopwatch watch(report.seconds["boundary"]);
-        initial.add_seeds();
-        report.seeds = model.vertices.size() - report.density.kept.size();
-        initial.add_box([&] { report_progress(progress, "boundary", 0); });
-        report.domain_vertices = model.vertices.size() - report.density.kept.size() - report.seeds;
-    }
-    ValueSource source;
-    double estimating = 0;
-    {
-        const Stopwatch watch(estimating);
-        report_progress(progress, "estimate", 0);
-        source = factory(model, proximity);
-        set_residual_limits(options, model);
-        model.vertex_values = measured_or_estimated(model, source);
-    }
-    const ValueSource timed_source = [&](std::span<const ValueQuery> queries) {
-        const Stopwatch watch(estimating);
-        return source(queries);
-    };
-    Tessellation& tessellation = built->tessellation.emplace();
-    {
-        const Stopwatch watch(report.seconds["refine"]);
-        tessellation.insert(model.vertices, [&] { report_progress(progress, "tessellate", 0); });
-        report.initial = initial_statistics(*built);
-        if (options.refine_enabled) {
-            RefineOptions refine_options = options.refine;
-            refine_options.progress = progress;
-            refine_options.enough_vertices = enough_vertices(options, model);
-            const double before = estimating;
-            report.refine =
-                refine(tessellation, model.vertex_values, model.domain, model.frame, proximity, model.criteria,
-                       model.properties, timed_source, refine_options, dropped_samples(model, proximity));
-            report.seconds["refine"] -= estimating - before;
-            keep_l_min_between(model, report);
+    const Criteria criteria = model.criteria;
+    for (int round = 0;; ++round) {
+        model.criteria = criteria;
+        tessellate(*built, options, factory, report, progress);
+        const auto crossing = fault_crossing_edges(model, built->mesh, *built->barriers);
+        report.fault_crossing_edges = crossing.size();
+        if (crossing.empty() || round == most_rounds || !close_crossings(crossing, built->mesh, model)) {
+            break;
         }
-        model.vertices.assign(tessellation.vertices().begin(), tessellation.vertices().end());
-        describe(*built, report);
-        note_lost_field(model, report);
     }
-    report.seconds["estimate"] = estimating;
+    const Stopwatch watch(report.seconds["refine"]);
+    if (options.refine_enabled) {
+        keep_l_min_between(model, report);
+    }
+    describe(*built, report);
+    note_lost_field(model, report);
     return built;
 }
 

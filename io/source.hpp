@@ -31,9 +31,22 @@ bool is_connection(const std::string& path);
 /// hold commas. Throws UsageError on an unknown key after a file name, a key given twice, or without a file name.
 Source parse_source(const std::string& text);
 
-/// A length with an optional unit (mm, cm, m, km, ft, usft, in, yd, mi), `20`, `20m`, `65ft`, in units of
-/// `metres_per_unit`. Throws UsageError.
-double parse_length(const std::string& text, double metres_per_unit);
+/// A length in its own unit, or in one that is known later: the model's.
+struct Length {
+    double value = 0;
+    double metres = 0;   ///< in its unit; 0: it has none of its own
+    std::string text{};  ///< as given, for messages
+
+    [[nodiscard]] bool has_unit() const { return metres > 0; }
+
+    /// In units of `metres_per_unit`.
+    [[nodiscard]] double in(double metres_per_unit) const {
+        return has_unit() ? value * metres / metres_per_unit : value;
+    }
+};
+
+/// A finite number with an optional unit (mm, cm, m, km, ft, usft, in, yd, mi): `20`, `20m`, `65ft`. Throws UsageError.
+Length parse_length(const std::string& text);
 
 /// Metres in a unit as parse_length knows it. Throws UsageError naming those there are.
 double metres_in_unit(const std::string& unit);

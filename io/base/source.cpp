@@ -141,7 +141,7 @@ double metres_in_unit(const std::string& unit) {
     return found->metres;
 }
 
-double parse_length(const std::string& text, double metres_per_unit) {
+Length parse_length(const std::string& text) {
     double value = 0;
     const char* const last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, value);
@@ -149,7 +149,7 @@ double parse_length(const std::string& text, double metres_per_unit) {
         throw UsageError("'" + text + "' is not a length: a number with or without a unit, as in 20, 20m or 65ft");
     }
     const std::string unit(end, last);
-    return unit.empty() ? value : value * metres_in_unit(unit) / metres_per_unit;
+    return {value, unit.empty() ? 0 : metres_in_unit(unit), text};
 }
 
 }  // namespace terratet

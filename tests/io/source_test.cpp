@@ -38,13 +38,13 @@ TEST_CASE("messages name a source's layer and hide its password") {
 }
 
 TEST_CASE("lengths carry their unit or take the target's") {
-    CHECK(parse_length("20", 0.3048) == 20);
-    CHECK(parse_length("20m", 1) == 20);
-    CHECK(parse_length("65ft", 1) == Approx(19.812));
-    CHECK(parse_length("1.5km", 1) == 1500);
-    CHECK(parse_length("3.048m", 0.3048) == Approx(10));
+    CHECK(parse_length("20").in(0.3048) == 20);
+    CHECK(parse_length("20m").in(1) == 20);
+    CHECK(parse_length("65ft").in(1) == Approx(19.812));
+    CHECK(parse_length("1.5km").in(1) == 1500);
+    CHECK(parse_length("3.048m").in(0.3048) == Approx(10));
     for (const char* bad : {"", "m", "20 m", "20parsec", "nan", "inf", "1e999", "0x10"}) {
         INFO(bad);
-        CHECK_THROWS_AS(parse_length(bad, 1), UsageError);
+        CHECK_THROWS_AS(parse_length(bad), UsageError);
     }
 }

@@ -22,6 +22,7 @@ class Usage(Case):
             for group in command["groups"]:
                 for option in group["options"]:
                     self.assertEqual(option["type"] == "switch", option["value"] == "", option)
+                    self.assertEqual(option["type"] == "length", option["value"] == "LENGTH", option)
 
     def completed(self, *words):
         """What bash offers for the last word."""
@@ -38,6 +39,9 @@ class Usage(Case):
         self.assertEqual(self.completed("help", "est"), ["estimators"])
         self.assertEqual(self.completed("convert", "--fault-w"), ["--fault-width"])
         self.assertEqual(self.completed("convert", "--boreholes", "col"), ["collar.csv"])
+        self.assertEqual(self.completed("convert", "--fault-mode", ""), ["paired", "exact"])
+        self.assertEqual(self.completed("export", "m.gpkg", "--color-map", "ci"), ["cividis"])
+        self.assertEqual(self.completed("export", "m.gpkg", "--of", "VO"), ["VOXELTILES"])
         for command in self.usage_json()["commands"]:
             for group in command["groups"]:
                 names = [name for option in group["options"] for name in option["names"]]

@@ -25,7 +25,7 @@ class Build final : public Command {
                            "KEY=VALUE",
                            "SPATIAL_INDEX=YES gives the model's layers R-trees, which other programs like and which "
                            "take longer than all other writing",
-                           &build_.exporting.creation_options}}}});
+                           creation_options(build_.exporting)}}}});
         append(syntax, run_options(build_.run));
         return syntax;
     }

@@ -10,6 +10,7 @@
 #include "tools/options/command.hpp"
 #include "tools/options/field_names.hpp"
 #include "tools/options/printable.hpp"
+#include "tools/options/run_options.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
 #include "tools/run/progress_display.hpp"
@@ -48,8 +49,8 @@ class Check final : public Command {
                     "ask the estimator at every cell, not at 20,000 random places alone: as long as the build took",
                     &all_},
                    accept_edited_option(accept_edited_),
-                   {{"threads"}, "N", "as many as there are cores by default", &threads_},
-                   {{"progress"}, "HOW", "auto (default), none, json", &progress_},
+                   threads_option(threads_),
+                   progress_option(progress_),
                    {{"q", "quiet"}, "", "no bar", &quiet_}}}},
                 {"MODEL.gpkg", 1, 1, &paths_}};
     }
@@ -70,7 +71,7 @@ class Check final : public Command {
   private:
     std::vector<std::string> paths_;
     std::uint64_t threads_ = 0;
-    std::string progress_ = "auto";
+    ProgressStyle progress_ = ProgressStyle::automatic;
     bool json_ = false;
     bool all_ = false;
     bool accept_edited_ = false;

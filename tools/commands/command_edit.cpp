@@ -85,8 +85,8 @@ class Edit final : public Command {
                           &script_},
                          {{"json"}, "", "say what was changed as JSON on standard output", &json_},
                          accept_edited_option(accept_edited_),
-                         {{"threads"}, "N", "as many as there are cores by default", &threads_},
-                         {{"progress"}, "HOW", "auto (default), none, json", &progress_},
+                         threads_option(threads_),
+                         progress_option(progress_),
                          {{"q", "quiet"}, "", "no summary", &quiet_}}}},
                       {"MODEL.gpkg VERB", 1, 4, &words_}};
         append(syntax, edit_options(arguments_));
@@ -165,7 +165,7 @@ class Edit final : public Command {
     std::vector<std::string> words_;
     EditArguments arguments_;
     std::string script_;
-    std::string progress_ = "auto";
+    ProgressStyle progress_ = ProgressStyle::automatic;
     std::uint64_t threads_ = 0;
     bool dry_run_ = false;
     bool json_ = false;

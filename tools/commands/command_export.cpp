@@ -39,7 +39,7 @@ class Export final : public Command {
         const std::string& input = paths_.front();
         std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
         for (auto& output : outputs) {
-            if (names_model(output) && lower_case(exporting_.format) == "surfaces") {
+            if (names_model(output) && lower_case(exporting_.writers.format) == "surfaces") {
                 output += ",of=SURFACES";  // a GeoPackage, but of no model
             } else if (names_model(output)) {
                 throw UsageError(output + ": is a model; export writes other formats");
@@ -47,7 +47,6 @@ class Export final : public Command {
         }
         const bool is_grid = names_grid(parse_source(input).path);
         exporting_.voxels = exporting_.voxels || is_grid;
-        check_export_arguments(exporting_);
         const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
         if (writes) {
             check_outputs(outputs, {input}, exporting_, run_);

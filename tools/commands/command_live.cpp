@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
+#include <limits>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -9,13 +10,14 @@
 #include "tools/commands/live_protocol.hpp"
 #include "tools/commands/live_server.hpp"
 #include "tools/options/command.hpp"
+#include "tools/options/run_options.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
 
 namespace terratet::tools {
 namespace {
 
-constexpr std::uint64_t no_port = 1'000'000;
+constexpr auto no_port = std::numeric_limits<std::uint64_t>::max();
 
 /// Lines from standard input, answered in order on standard output.
 void answer_lines(LiveProtocol& protocol, ModelSession& session) {
@@ -58,7 +60,7 @@ class Live final : public Command {
                 {{"Options",
                   {{{"http"}, "PORT", "answer by HTTP on 127.0.0.1 instead; 0: any free port", &port_},
                    accept_edited_option(accept_edited_),
-                   {{"threads"}, "N", "as many as there are cores by default", &threads_},
+                   threads_option(threads_),
                    {{"q", "quiet"}, "", "nothing but errors on standard error", &quiet_}}}},
                 {"MODEL.gpkg", 1, 1, &paths_}};
     }

@@ -7,6 +7,7 @@
 #include "io/write/section_image.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
+#include "tools/options/run_options.hpp"
 #include "tools/options/text.hpp"
 #include "tools/run/open_model.hpp"
 #include "tools/run/process.hpp"
@@ -35,7 +36,7 @@ class Query final : public Command {
                 &output_},
                {{"overwrite"}, "", "replace it", &overwrite_},
                accept_edited_option(accept_edited_),
-               {{"threads"}, "N", "as many as there are cores by default", &threads_},
+               threads_option(threads_),
                {{"q", "quiet"}, "", "no remarks on standard error", &quiet_}}}},
             {"MODEL.gpkg VERB POINTS", 2, 3, &words_}};
         append(syntax, query_options(arguments_));

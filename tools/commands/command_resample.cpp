@@ -33,7 +33,6 @@ class Resample final : public Command {
         const std::string& input = paths_.front();
         const std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
         exporting_.voxels = true;
-        check_export_arguments(exporting_);
         check_outputs(outputs, {input, onto_}, exporting_, run_);
         const ThreadLimit threads(run_.threads);
         LiveModel live(open_model(input, accept_edited_));

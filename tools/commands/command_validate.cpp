@@ -13,6 +13,7 @@
 #include "tools/options/printable.hpp"
 #include "tools/options/run_options.hpp"
 #include "tools/options/site_options.hpp"
+#include "tools/options/values.hpp"
 #include "tools/report/diagnostics_json.hpp"
 #include "tools/report/validation.hpp"
 #include "tools/run/open_model.hpp"
@@ -56,7 +57,7 @@ class Validate final : public Command {
                    &estimators_},
                   {{"suggest"}, "", "what --estimator auto would choose, with the table of what was tried", &suggest_},
                   {{"folds"}, "N", "boreholes share N groups; by default each is left out alone", &folds_},
-                  horizon_option(horizon_),
+                  horizon_option(single(horizon_, parse_horizon)),
                   accept_edited_option(accept_edited_),
                   {{"plot"}, "FILE.svg", "draw variograms and estimated over measured values", &plot_},
               }}});
@@ -89,8 +90,8 @@ class Validate final : public Command {
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
             model = input(diagnostics, display.callback());
-            if (!horizon_.empty()) {
-                set_horizons(horizon_, model);  // of a model, another than it was built with
+            if (horizon_) {
+                set_horizons(*horizon_, model);  // of a model, another than it was built with
             }
             if (models_.empty()) {
                 model.barriers = as_barriers(model);
@@ -159,7 +160,7 @@ class Validate final : public Command {
     std::vector<std::string> models_;
     std::vector<std::string> estimators_;
     std::string plot_;
-    std::string horizon_;
+    std::optional<HardHorizons> horizon_;
     bool accept_edited_ = false;
     bool suggest_ = false;
     std::uint64_t folds_ = 0;

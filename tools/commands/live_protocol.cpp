@@ -96,7 +96,6 @@ ordered_json export_files(const ModelSnapshot& model, const std::string& input, 
     if (exporting.uncertainty) {
         throw UsageError("a live session exports what the model holds: build it with --uncertainty");
     }
-    check_export_arguments(exporting);
     check_outputs(paths, {input}, exporting, run);
     ordered_json outputs = ordered_json::array();
     for (const OutputRecord& output : write_outputs(model, paths, exporting, run, {}, {}).outputs) {

@@ -37,7 +37,6 @@ int run_build(const std::string& command, const BuildArguments& a, const std::ve
     const Stopwatch total;
     require_inputs(a);
     check_before_reading(a.site, a.model, a.run);
-    check_export_arguments(a.exporting);
     check_outputs(a.outputs, input_paths(a.site), a.exporting, a.run);
 
     const ThreadLimit threads(a.run.threads);

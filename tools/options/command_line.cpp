@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -15,18 +14,12 @@
 #include "tess/base/words.hpp"
 #include "tess/error.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
 
 using Values = std::map<const Option*, std::vector<std::string>>;
-
-bool is_switch(const Option& option) {
-    return std::holds_alternative<bool*>(option.target);
-}
-bool is_repeatable(const Option& option) {
-    return std::holds_alternative<std::vector<std::string>*>(option.target);
-}
 
 template <class Visitor>
 void for_each_option(const Syntax& syntax, Visitor visit) {
@@ -167,13 +160,19 @@ bool as_switch(const std::string& name, const std::string& text) {
 }
 
 void assign(const Option& option, const std::vector<std::string>& values) {
-    const std::string name = dashed(option.names.front());
-    if (is_repeatable(option)) {
-        *std::get<std::vector<std::string>*>(option.target) = values;
+    const std::string name = dashed(option.names.back());  // the one in words
+    if (auto* const* texts = std::get_if<std::vector<std::string>*>(&option.target)) {
+        **texts = values;
         return;
     }
-    if (values.size() != 1) {
+    if (values.size() != 1 && !is_repeatable(option)) {
         throw UsageError(fmt::format("{} is given {} times; it takes one value", name, values.size()));
+    }
+    if (const auto* parsed = std::get_if<Parsed>(&option.target)) {
+        for (const std::string& text : values) {
+            named(name, [&] { parsed->take(text); });
+        }
+        return;
     }
     const std::string& text = values.front();
     if (auto* const* target = std::get_if<bool*>(&option.target)) {
@@ -192,14 +191,6 @@ void assign(const Option& option, const std::vector<std::string>& values) {
 }
 
 }  // namespace
-
-void append(Syntax& syntax, std::vector<OptionGroup> groups) {
-    std::move(groups.begin(), groups.end(), std::back_inserter(syntax.groups));
-}
-
-std::string dashed(const std::string& name) {
-    return (name.size() == 1 ? "-" : "--") + name;
-}
 
 std::vector<std::string> with_two_dashes(const Syntax& syntax, const std::vector<std::string>& arguments) {
     std::vector<std::string> out;

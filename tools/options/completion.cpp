@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "tools/options/choice.hpp"
 #include "tools/options/command.hpp"
 #include "tools/options/help.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -61,15 +61,32 @@ std::string topic_names() {
     return out;
 }
 
+/// For the shell's `case $previous`: the words that an option takes.
+std::string bash_words(const CommandEntry& entry) {
+    std::string cases;
+    for_each_option(entry, [&](const Option& option) {
+        if (words_of(option).empty()) {
+            return;
+        }
+        for (const auto& name : option.names) {
+            cases += fmt::format("    {}) words={} ;;\n", posix_quoted(entry.name + " " + dashed(name)),
+                                 posix_quoted(fmt::format("{}", fmt::join(words_of(option), " "))));
+        }
+    });
+    return cases;
+}
+
 std::string bash_script() {
     std::string cases;
+    std::string words;
     for (const auto& entry : commands()) {
         cases += fmt::format("    {}) options={} ;;\n", entry.name, posix_quoted(option_names(entry)));
+        words += bash_words(entry);
     }
     return fmt::format(
         R"(# bash completion for terratet: source it, or put it into ~/.local/share/bash-completion/completions/terratet
 _terratet() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} options=''
+  local word=${{COMP_WORDS[COMP_CWORD]}} options='' words=''
   if [ "$COMP_CWORD" -eq 1 ]; then
     COMPREPLY=($(compgen -W '{} --version --help --json-usage' -- "$word"))
     return
@@ -77,6 +94,12 @@ _terratet() {{
   case ${{COMP_WORDS[1]}} in
     help) COMPREPLY=($(compgen -W '{}' -- "$word")); return ;;
 {}  esac
+  case "${{COMP_WORDS[1]}} ${{COMP_WORDS[COMP_CWORD-1]}}" in
+{}  esac
+  if [ -n "$words" ]; then
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
+    return
+  fi
   case $word in
     -*) COMPREPLY=($(compgen -W "$options" -- "$word")) ;;
     *) COMPREPLY=($(compgen -f -- "$word")) ;;
@@ -84,7 +107,7 @@ _terratet() {{
 }}
 complete -o filenames -F _terratet terratet
 )",
-        command_names(), topic_names(), cases);
+        command_names(), topic_names(), cases, words);
 }
 
 /// What stands in a description of _arguments: colons and brackets have a meaning there.
@@ -102,10 +125,12 @@ std::string zsh_script() {
         described += fmt::format("    {}\n", posix_quoted(entry.name + ":" + zsh_text(entry.summary)));
         cases += fmt::format("    {})\n      _arguments '--help[options and examples]'", entry.name);
         for_each_option(entry, [&](const Option& option) {
-            const bool repeatable = std::holds_alternative<std::vector<std::string>*>(option.target);
+            const auto& words = words_of(option);
+            const std::string values = words.empty() ? "_files" : fmt::format("({})", fmt::join(words, " "));
             for (const auto& name : option.names) {
-                std::string spec = fmt::format("{}{}[{}]", repeatable ? "*" : "", dashed(name), zsh_text(option.help));
-                spec += option.value.empty() ? "" : fmt::format(":{}:_files", zsh_text(option.value));
+                std::string spec = fmt::format("{}{}[{}]", is_repeatable(option) ? "*" : "", dashed(name),
+                                               zsh_text(help_text(option)));
+                spec += option.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(option.value), values);
                 cases += " \\\n        " + posix_quoted(spec);
             }
         });
@@ -143,9 +168,11 @@ std::string fish_script() {
                            text(entry.summary));
         for_each_option(entry, [&](const Option& option) {
             for (const auto& name : option.names) {
-                out += fmt::format("complete -c terratet -n '__fish_seen_subcommand_from {}' -{} {}{} -d {}\n",
+                const auto& words = words_of(option);
+                out += fmt::format("complete -c terratet -n '__fish_seen_subcommand_from {}' -{} {}{}{} -d {}\n",
                                    entry.name, name.size() == 1 ? "s" : "l", name, option.value.empty() ? "" : " -r",
-                                   text(option.help));
+                                   words.empty() ? "" : fmt::format(" -f -a '{}'", fmt::join(words, " ")),
+                                   text(help_text(option)));
             }
         });
     }
@@ -162,7 +189,9 @@ const std::vector<std::string>& shells() {
 
 std::string completion_script(const std::string& shell) {
     using Maker = std::string (*)();
-    return choose<Maker>("completion", shell, {{"bash", bash_script}, {"zsh", zsh_script}, {"fish", fish_script}})();
+    return named("completion", [&] {
+        return choose<Maker>(shell, {{"bash", bash_script}, {"zsh", zsh_script}, {"fish", fish_script}});
+    })();
 }
 
 }  // namespace terratet::tools

@@ -3,6 +3,7 @@
 #include "tools/options/edit_options.hpp"
 
 #include "tools/options/command_line.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 
@@ -20,8 +21,8 @@ std::vector<OptionGroup> edit_options(EditArguments& a) {
              {{"by"}, "DX,DY[,DZ]", "move-borehole: how far", &a.by},
              {{"to"}, "X,Y,Z", "move-borehole: where its collar goes", &a.to},
              {{"box"}, "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX", "refine: where", &a.box, 6},
-             {{"lmin"}, "LENGTH", "refine: half of what is in force there by default", &a.l_min},
-             {{"lmax"}, "LENGTH", "refine: half of what is in force there by default", &a.l_max},
+             {{"lmin"}, "LENGTH", "refine: half of what is in force there by default", length_value(a.l_min)},
+             {{"lmax"}, "LENGTH", "refine: half of what is in force there by default", length_value(a.l_max)},
          }},
     };
     for (OptionGroup& group : site_options(a.site)) {

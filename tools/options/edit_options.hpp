@@ -4,6 +4,7 @@
 /// \file
 /// The words of an edit: the same on the command line, in a script and in a live session.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ struct EditArguments {
     std::string by;
     std::string to;
     std::string box;
-    std::string l_min;
-    std::string l_max;
+    std::optional<Length> l_min;
+    std::optional<Length> l_max;
     SiteArguments site;
 };
 

@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
+#include <functional>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "io/base/lower_case.hpp"
 #include "io/export.hpp"
-#include "io/source.hpp"
+#include "io/style/color_map.hpp"
 #include "tess/error.hpp"
-#include "tools/options/choice.hpp"
+#include "tools/options/tolerance_option.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -22,90 +24,105 @@ std::string upper(std::string text) {
     return text;
 }
 
-bool as_flag(const std::string& key, const std::string& value) {
-    return choose<bool>("-co " + key, upper(value),
-                        {{"YES", true}, {"NO", false}, {"TRUE", true}, {"FALSE", false}, {"ON", true}, {"OFF", false}});
+const Choices<bool>& flags() {
+    static const Choices<bool> words{{"YES", true},    {"NO", false}, {"TRUE", true},
+                                     {"FALSE", false}, {"ON", true},  {"OFF", false}};
+    return words;
 }
 
 /// One length for all axes, or three.
-Vec3 parse_voxel_size(const std::string& text, double metres_per_unit) {
-    std::vector<double> sizes;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        try {
-            sizes.push_back(parse_length(text.substr(begin, end - begin), metres_per_unit));
-        } catch (const UsageError& error) {
-            throw UsageError(fmt::format("--voxel-size: {}", error.what()));
-        }
-        if (!(sizes.back() > 0)) {
-            throw UsageError(fmt::format("--voxel-size: '{}' is not above 0", text));
-        }
-        begin = end + 1;
+VoxelSize parse_voxel_size(const std::string& text) {
+    std::vector<Length> sizes;
+    for (const std::string& part : split(text, ',')) {
+        sizes.push_back(parse_positive_length(part));
     }
     if (sizes.size() == 1) {
         return {sizes[0], sizes[0], sizes[0]};
     }
     if (sizes.size() != 3) {
-        throw UsageError(fmt::format("--voxel-size: one length or three are needed, and {} are given", sizes.size()));
+        throw UsageError(fmt::format("one length or three are needed, and {} are given", sizes.size()));
     }
     return {sizes[0], sizes[1], sizes[2]};
 }
 
-FaultGap fault_gap(const ExportArguments& a) {
-    return choose<FaultGap>("--fault-gap", a.fault_gap, {{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}});
+double parse_extrapolation(const std::string& text) {
+    const double limit = parse_numbers(text, 1, 1)[0];
+    if (!(limit >= 0 && limit <= 1)) {
+        throw UsageError(fmt::format("{} is not within 0 and 1", text));
+    }
+    return limit;
 }
 
-VoxelValues voxel_values(const ExportArguments& a) {
-    return choose<VoxelValues>("--values", a.values,
-                               {{"linear", VoxelValues::linear}, {"estimator", VoxelValues::estimator}});
+std::array<std::uint32_t, 2> parse_picture_size(const std::string& text) {
+    const std::vector<double> size = parse_numbers(text, 2, 2);
+    if (std::ranges::any_of(size, [](double pixels) { return !(pixels >= 200 && pixels <= 8000); })) {
+        throw UsageError(fmt::format("'{}' is not within 200 and 8000 pixels", text));
+    }
+    return {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])};
 }
 
-std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const char* last = text.data() + end;
-        double number = 0;
-        const auto [stop, error] = std::from_chars(text.data() + begin, last, number);
-        if (error != std::errc() || stop != last || !std::isfinite(number)) {
-            throw UsageError(fmt::format("{}: '{}' is not a number", option, text.substr(begin, end - begin)));
-        }
-        numbers.push_back(number);
-        begin = end + 1;
-    }
-    if (numbers.size() != count) {
-        throw UsageError(
-            fmt::format("{}: '{}' are {} numbers, and {} are needed", option, text, numbers.size(), count));
-    }
-    return numbers;
+std::string checked_color_map(const std::string& name) {
+    ColorMap::named(name);
+    return name;
 }
 
-/// What scenes need and no model.
-ExportOptions scene_options(const ExportArguments& a) {
-    ExportOptions options;
-    for (const std::string& section : a.sections) {
-        options.sections.push_back(parse_section(section));
-    }
-    for (const std::string& iso : a.iso) {
-        options.iso.push_back(parse_iso(iso));
-    }
-    if (!a.max_extrapolation.empty()) {
-        options.max_extrapolation = parse_numbers("--max-extrapolation", a.max_extrapolation, 1)[0];
-        if (!(*options.max_extrapolation >= 0 && *options.max_extrapolation <= 1)) {
-            throw UsageError(fmt::format("--max-extrapolation: {} is not within 0 and 1", a.max_extrapolation));
-        }
-    }
-    if (!a.size.empty()) {
-        const std::vector<double> size = parse_numbers("--size", a.size, 2);
-        for (std::size_t k = 0; k < 2; ++k) {
-            if (!(size[k] >= 200 && size[k] <= 8000)) {
-                throw UsageError(fmt::format("--size: '{}' is not within 200 and 8000 pixels", a.size));
-            }
-            options.picture_size[k] = static_cast<std::uint32_t>(size[k]);
-        }
-    }
-    options.enu = !a.frame.empty() && choose<bool>("-co FRAME", upper(a.frame), {{"GRID", false}, {"ENU", true}});
-    return options;
+const Choices<FaultGap>& fault_gaps() {
+    static const Choices<FaultGap> words{{"keep", FaultGap::keep}, {"collapse", FaultGap::collapse}};
+    return words;
+}
+
+/// What each creation option does with its value.
+std::map<std::string, std::function<void(const std::string&)>> creation_keys(ExportArguments& a) {
+    const auto flag = [](bool& target, bool when_yes = true) {
+        return [&target, when_yes](const std::string& value) { target = choose(upper(value), flags()) == when_yes; };
+    };
+    ExportOptions& writers = a.writers;
+    return {
+        {"CLIP", flag(a.clip)},
+        {"COMPRESS",
+         [&a](const std::string& value) {
+             a.compress = choose(upper(value), flags());
+             a.uncompressed = !a.compress;
+         }},
+        {"MARGIN", flag(writers.margin)},
+        {"VORONOI", flag(writers.voronoi)},
+        {"HALF", flag(writers.half)},
+        {"VERSION",
+         [&](const std::string& value) {
+             writers.msh_version_2 = choose<bool>(value, {{"4.1", false}, {"2.2", true}});
+         }},
+        {"ALIGN", flag(writers.aligned)},
+        {"FIELDS",
+         [&](const std::string& value) {
+             writers.all_fields = choose<bool>(upper(value), {{"ALL", true}, {"PROPERTIES", false}});
+         }},
+        {"VERTICAL_SRS", [&](const std::string& value) { writers.vertical_crs = value; }},
+        {"LOCAL_ORIGIN", flag(writers.local_origin)},
+        {"FAULT_GAP", [&](const std::string& value) { writers.fault_gap = choose(lower_case(value), fault_gaps()); }},
+        {"VOXEL_SIZE", [&a](const std::string& value) { a.voxel_size = parse_voxel_size(value); }},
+        {"COLOR", [&](const std::string& value) { writers.color_property = value; }},
+        {"COLOR_MAP", [&](const std::string& value) { writers.color_map = checked_color_map(value); }},
+        {"SPATIAL_INDEX", flag(a.spatial_index)},
+        {"FRAME",
+         [&](const std::string& value) {
+             writers.enu = choose<bool>(upper(value), {{"GRID", false}, {"ENU", true}});
+         }},
+    };
+}
+
+Parsed color_map_value(std::string& target) {
+    Parsed value = single(target, checked_color_map);
+    value.words = ColorMap::names();
+    value.standard = target;
+    return value;
+}
+
+Parsed format_value(std::string& target) {
+    Parsed value = single(target, [](const std::string& text) { return text; });  // judged with the output's name
+    std::string names = export_format_names();
+    std::erase(names, ' ');
+    value.words = split(names, ',');
+    return value;
 }
 
 }  // namespace
@@ -125,7 +142,8 @@ OutputRequest parse_output(const std::string& text) {
 
 OutputRequest parse_output(const std::string& text, const ExportArguments& arguments) {
     OutputRequest output = parse_output(text);
-    const bool tileset = output.format.empty() && arguments.format.empty() && upper(output.path).ends_with(".JSON");
+    const bool tileset =
+        output.format.empty() && arguments.writers.format.empty() && upper(output.path).ends_with(".JSON");
     if (tileset) {
         output.format = arguments.voxels ? "VOXELTILES" : "TILES";
     }
@@ -140,167 +158,106 @@ std::vector<OptionGroup> export_options(ExportArguments& a) {
               "FORMAT",
               "instead of the extension's: " + export_format_names() +
                   "; with it the output may be -, standard output; of one output among several: OUTPUT,of=FORMAT",
-              &a.format},
+              format_value(a.writers.format)},
              {{"voxels"}, "", "a tileset (tileset.json) of voxels, as of=VOXELTILES, not of the scene", &a.voxels},
              {{"tr", "voxel-size"},
               "LENGTH[,LENGTH,LENGTH]",
               "of voxels; by default about a 128th of the longest side",
-              &a.voxel_size,
+              single(a.voxel_size, parse_voxel_size),
               3},
              {{"values"},
               "KIND",
-              "of voxels: linear (default), the tessellation's field, or estimator, what all samples say at each "
+              "of voxels: linear, the tessellation's field, or estimator, what all samples say at each "
               "centre",
-              &a.values},
+              one_of(a.writers.voxel_values, {{"linear", VoxelValues::linear}, {"estimator", VoxelValues::estimator}})},
              {{"max-extrapolation"},
               "E",
               "voxels: no value where the extrapolation is above E, 0 to 1; scenes: grey there; by default all have "
               "one, "
               "and grey is where no sample reaches",
-              &a.max_extrapolation},
+              single(a.writers.max_extrapolation, parse_extrapolation)},
              {{"dry-run"}, "", "only say what outputs of voxels would take", &a.dry_run},
-             {{"allow-large"}, "", "write outputs of voxels above 2 GiB too", &a.allow_large},
-             {{"margin"}, "", "VTU: all cells, uncut, of the box that reaches beyond the extent", &a.margin},
+             {{"allow-large"}, "", "write outputs of voxels above 2 GiB too", &a.writers.allow_large},
+             {{"margin"}, "", "VTU: all cells, uncut, of the box that reaches beyond the extent", &a.writers.margin},
              {{"voronoi"},
               "",
               "VTU: the Voronoi cells of the vertices, polyhedra with volumes, instead of tetrahedra",
-              &a.voronoi},
+              &a.writers.voronoi},
              {{"clip"}, "", "VTU: is what is done anyway, unless --margin", &a.clip},
              {{"fault-gap"},
               "HOW",
-              "VTU, glTF: keep (default) the cells between a fault's two sheets, or collapse: both meet on the "
+              "VTU, glTF: keep the cells between a fault's two sheets, or collapse: both meet on the "
               "fault, its nodes split",
-              &a.fault_gap},
+              one_of(a.writers.fault_gap, fault_gaps())},
              {{"compress"},
               "",
               "glTF: with meshopt, 16 bits an axis; VTU, GeoTIFF and netCDF are compressed unless -co COMPRESS=NO",
               &a.compress},
-             {{"half"}, "", "VDB: 16-bit floats", &a.half},
+             {{"half"}, "", "VDB: 16-bit floats", &a.writers.half},
              {{"local-origin"},
               "",
               "VDB: coordinates from the model's origin, for Blender and Houdini",
-              &a.local_origin},
+              &a.writers.local_origin},
              {{"uncertainty"},
               "",
               "with each property's standard deviation, 95 % half-width, extrapolation and number of samples; of a "
               "category "
               "the classes' probabilities and entropy",
               &a.uncertainty},
-             {{"color"}, "PROPERTY", "scenes: what to colour by; the first by default", &a.color},
-             {{"color-map"}, "NAME", "scenes: viridis by default", &a.color_map},
+             {{"color"}, "PROPERTY", "scenes: what to colour by; the first by default", &a.writers.color_property},
+             {{"color-map"}, "NAME", "scenes: " + listed(ColorMap::names()), color_map_value(a.writers.color_map)},
              {{"section"},
               "WHERE",
               "scenes: a section x1,y1,x2,y2 (upright), z=V (level) or AZIMUTH,x,y; repeatable; by default two "
               "through the middle of the samples",
-              &a.sections},
+              each(a.writers.sections, parse_section)},
              {{"iso"},
               "PROPERTY=VALUE[,VALUE]",
               "scenes: isosurfaces; repeatable; by default at the quartiles of what is coloured",
-              &a.iso},
-             {{"size"}, "WIDTH,HEIGHT", "PNG: in pixels, 1600,1000 by default", &a.size},
+              each(a.writers.iso, parse_iso)},
+             {{"size"},
+              "WIDTH,HEIGHT",
+              fmt::format("PNG: in pixels, {},{} by default", a.writers.picture_size[0], a.writers.picture_size[1]),
+              single(a.writers.picture_size, parse_picture_size)},
              {{"co"},
               "KEY=VALUE",
               "the same as creation options: -co COMPRESS=NO; ALIGN=NO centres voxels on the extent, FIELDS=ALL gives "
               "GeoTIFF bands of extrapolation and region, VERSION=2.2 the older format of Gmsh, SPATIAL_INDEX=YES a "
               "model's layers R-trees, VERTICAL_SRS=EPSG:5773 tells tilesets what heights are above",
-              &a.creation_options},
+              creation_options(a)},
          }}};
 }
 
-ExportArguments with_creation_options(ExportArguments a) {
-    for (const auto& text : a.creation_options) {
+Parsed creation_options(ExportArguments& a) {
+    const auto take = [&a](const std::string& text) {
         const auto equals = text.find('=');
         const std::string key = upper(text.substr(0, equals));
-        const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
-        if (value.empty()) {
-            throw UsageError(fmt::format("-co: '{}' is not KEY=VALUE", text));
+        if (equals == std::string::npos || equals + 1 == text.size()) {
+            throw UsageError(fmt::format("'{}' is not KEY=VALUE", text));
         }
-        if (key == "CLIP") {
-            a.clip = as_flag(key, value);
-        } else if (key == "COMPRESS") {
-            a.compress = as_flag(key, value);
-            a.uncompressed = !a.compress;
-        } else if (key == "MARGIN") {
-            a.margin = as_flag(key, value);
-        } else if (key == "VORONOI") {
-            a.voronoi = as_flag(key, value);
-        } else if (key == "HALF") {
-            a.half = as_flag(key, value);
-        } else if (key == "VERSION") {
-            a.msh_version_2 = choose<bool>("-co VERSION", value, {{"4.1", false}, {"2.2", true}});
-        } else if (key == "ALIGN") {
-            a.centred = !as_flag(key, value);
-        } else if (key == "FIELDS") {
-            a.all_fields = choose<bool>("-co FIELDS", upper(value), {{"ALL", true}, {"PROPERTIES", false}});
-        } else if (key == "VERTICAL_SRS") {
-            a.vertical_srs = value;
-        } else if (key == "LOCAL_ORIGIN") {
-            a.local_origin = as_flag(key, value);
-        } else if (key == "FAULT_GAP") {
-            a.fault_gap = value;
-            std::transform(a.fault_gap.begin(), a.fault_gap.end(), a.fault_gap.begin(),
-                           [](unsigned char c) { return std::tolower(c); });
-        } else if (key == "VOXEL_SIZE") {
-            a.voxel_size = value;
-        } else if (key == "COLOR") {
-            a.color = value;
-        } else if (key == "COLOR_MAP") {
-            a.color_map = value;
-        } else if (key == "SPATIAL_INDEX") {
-            a.spatial_index = as_flag(key, value);
-        } else if (key == "FRAME") {
-            a.frame = value;
-        } else {
-            const std::vector<std::string> known{"ALIGN",    "CLIP",         "COLOR",   "COLOR_MAP",
-                                                 "COMPRESS", "FAULT_GAP",    "FIELDS",  "FRAME",
-                                                 "HALF",     "LOCAL_ORIGIN", "MARGIN",  "SPATIAL_INDEX",
-                                                 "VERSION",  "VERTICAL_SRS", "VORONOI", "VOXEL_SIZE"};
-            throw UsageError(fmt::format("-co: '{}' is not one of {}{}", key, listed(known), did_you_mean(key, known)));
+        const auto keys = creation_keys(a);
+        const auto found = keys.find(key);
+        if (found == keys.end()) {
+            const auto known = names_of(keys, [](const auto& entry) { return entry.first; });
+            throw UsageError(fmt::format("'{}' is not one of {}{}", key, listed(known), did_you_mean(key, known)));
         }
-    }
-    a.creation_options.clear();
-    return a;
+        named(key, [&] { found->second(text.substr(equals + 1)); });
+    };
+    return {.take = take, .repeatable = true};
 }
 
-void check_export_arguments(const ExportArguments& arguments) {
-    const ExportArguments a = with_creation_options(arguments);
-    if (!a.voxel_size.empty()) {
-        parse_voxel_size(a.voxel_size, 1.0);
-    }
-    fault_gap(a);
-    scene_options(a);
-    voxel_values(a);
-}
-
-ExportOptions writer_options(const ExportArguments& arguments, const Model& model) {
-    const ExportArguments a = with_creation_options(arguments);
-    ExportOptions options = scene_options(a);
-    options.format = a.format;
-    options.fault_gap = fault_gap(a);
-    options.margin = a.margin;
-    options.voronoi = a.voronoi;
+ExportOptions writer_options(const ExportArguments& a, const Model& model) {
+    ExportOptions options = a.writers;
     if (a.compress || a.uncompressed) {
         options.compress = a.compress;
     }
-    options.voxel_values = voxel_values(a);
-    options.allow_large = a.allow_large;
-    options.half = a.half;
-    options.msh_version_2 = a.msh_version_2;
-    options.aligned = !a.centred;
-    options.all_fields = a.all_fields;
-    options.local_origin = a.local_origin;
-    options.vertical_crs = a.vertical_srs;
-    options.color_map = a.color_map;
-    if (!a.voxel_size.empty()) {
-        options.voxel_size = parse_voxel_size(a.voxel_size, model.frame.metres_per_unit);
+    if (a.voxel_size) {
+        const double unit = model.frame.metres_per_unit;
+        const VoxelSize& size = *a.voxel_size;
+        options.voxel_size = {size[0].in(unit), size[1].in(unit), size[2].in(unit)};
     }
-    if (!a.color.empty()) {
-        std::vector<std::pair<std::string, int>> known;
-        for (const auto& property : model.properties) {
-            known.emplace_back(property.name, 0);
-        }
-        choose("--color", a.color, known);
-        options.color_property = a.color;
+    if (!options.color_property.empty()) {
+        find_property("--color", options.color_property, model.properties);
     }
     return options;
 }

@@ -119,7 +119,7 @@ std::string option_lines(const Option& option) {
     } else {
         line.resize(column, ' ');
     }
-    return line + wrapped(option.help, column, column) + "\n";
+    return line + wrapped(help_text(option), column, column) + "\n";
 }
 
 }  // namespace

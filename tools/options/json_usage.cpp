@@ -12,9 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* type_of(const Target& target) {
+std::string type_of(const Target& target) {
+    if (const auto* parsed = std::get_if<Parsed>(&target)) {
+        return parsed->type;
+    }
     constexpr const char* names[] = {"switch", "text", "number", "count", "text"};  // in the order of Target
-    static_assert(std::variant_size_v<Target> == std::size(names));
+    static_assert(std::variant_size_v<Target> == std::size(names) + 1);
     return names[target.index()];
 }
 
@@ -26,9 +29,10 @@ Json described(const Option& option) {
     return {{"names", names},
             {"value", option.value},
             {"type", type_of(option.target)},
-            {"repeatable", std::holds_alternative<std::vector<std::string>*>(option.target)},
+            {"words", words_of(option)},
+            {"repeatable", is_repeatable(option)},
             {"numbers", option.numbers},
-            {"help", option.help}};
+            {"help", help_text(option)}};
 }
 
 Json described(const CommandEntry& entry) {

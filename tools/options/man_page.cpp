@@ -52,7 +52,7 @@ std::string man_page(const CommandEntry& entry) {
             for (const auto& name : option.names) {
                 names += (names.empty() ? "" : ", ") + fmt::format("\\fB{}\\fR", escaped(dashed(name)));
             }
-            out += fmt::format(".TP\n{} {}\n{}\n", names, escaped(option.value), escaped(option.help));
+            out += fmt::format(".TP\n{} {}\n{}\n", names, escaped(option.value), escaped(help_text(option)));
         }
     }
     out += exit_status() + ".SH EXAMPLES\n.nf\n";

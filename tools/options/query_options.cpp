@@ -2,15 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/options/query_options.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "io/base/parse_number.hpp"
-#include "tess/error.hpp"
-#include "tess/geometry.hpp"
 #include "tools/options/command_line.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 
@@ -20,11 +13,14 @@ std::vector<OptionGroup> query_options(QueryArguments& a) {
          {
              {{"at"}, "X,Y,Z", "a place in true coordinates, instead of a table; repeatable", &a.at},
              {{"k", "count"}, "K", "nearest: how many; 1 by default", &a.count},
-             {{"d", "distance"}, "D", "within: how far, in the model's unit", &a.distance},
+             {{"d", "distance"},
+              "LENGTH",
+              "within: how far, in the model's unit or 20m, 65ft",
+              length_value(a.distance, true)},
              {{"box"}, "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX", "box: the vertices in it", &a.box, 6},
              {{"borehole"}, "ID", "neighbours: those of a borehole's own vertices", &a.borehole},
              {{"plane"}, "X,Y,Z,NX,NY,NZ", "section: a plane through a point, with its normal", &a.plane},
-             {{"step"}, "LENGTH", "line: between its rows; by default half of --lmin", &a.step},
+             {{"step"}, "LENGTH", "line: between its rows; by default half of --lmin", length_value(a.step)},
              {{"above"}, "P=V", "region: the volume in which property P is at least V, too", &a.above},
              {{"s_srs", "source-crs"}, "CRS", "of the points, if they carry none; the model's by default", &a.crs},
              {{"columns"}, "MEANING=COLUMN", "a column not found by its name: x, y, z", &a.columns},
@@ -45,24 +41,6 @@ QueryArguments parse_query(const std::vector<std::string>& words) {
     const Syntax syntax{"query", query_options(arguments), {"VERB", 1, 2, &arguments.words}};
     parse_arguments(syntax, words);
     return arguments;
-}
-
-std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t least,
-                                  std::size_t most) {
-    std::vector<double> result;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(text.substr(begin, end - begin));
-        if (!number || !(std::abs(*number) <= max_coordinate)) {
-            throw UsageError(fmt::format("{}: '{}' is no number within 1e9", option, text.substr(begin, end - begin)));
-        }
-        result.push_back(*number);
-        begin = end + 1;
-    }
-    if (result.size() < least || result.size() > most) {
-        throw UsageError(fmt::format("{}: '{}' has {} numbers, not {}", option, text, result.size(), least));
-    }
-    return result;
 }
 
 }  // namespace terratet::tools

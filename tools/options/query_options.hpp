@@ -4,9 +4,11 @@
 /// \file
 /// The words of a query: the same on the command line and in a live session.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/source.hpp"
 #include "tools/options/option.hpp"
 
 namespace terratet {
@@ -19,11 +21,11 @@ struct QueryArguments {
     std::vector<std::string> words;  ///< the verb and where its places are
     std::vector<std::string> at;
     std::string count = "1";
-    std::string distance;
+    std::optional<Length> distance;
     std::string box;
     std::string borehole;
     std::string plane;
-    std::string step;
+    std::optional<Length> step;
     std::string above;
     std::string estimator;
     std::string crs;
@@ -39,10 +41,5 @@ std::vector<OptionGroup> query_options(QueryArguments& arguments);
 
 /// From a list of words, as a live session has them. Throws UsageError.
 QueryArguments parse_query(const std::vector<std::string>& words);
-
-/// "x,y,z" and the like. Throws UsageError naming the option, unless there are from `least` to `most` numbers, each
-/// within 1e9.
-std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t least,
-                                  std::size_t most);
 
 }  // namespace terratet::tools

@@ -16,11 +16,13 @@ class Ranks;
 
 namespace terratet::tools {
 
+enum class ProgressStyle { automatic, none, json };
+
 struct RunArguments {
     std::uint64_t threads = 0;  ///< 0: as many as there are cores
     std::string config;
     std::string report;
-    std::string progress = "auto";
+    ProgressStyle progress = ProgressStyle::automatic;
     bool overwrite = false;
     bool strict = false;
     bool quiet = false;
@@ -31,5 +33,8 @@ struct RunArguments {
 inline constexpr const char* run_group = "Running";
 
 std::vector<OptionGroup> run_options(RunArguments& arguments);
+
+Option threads_option(std::uint64_t& threads);
+Option progress_option(ProgressStyle& progress);
 
 }  // namespace terratet::tools

@@ -17,7 +17,7 @@
 #include "io/read/tables/read_table.hpp"
 #include "tess/error.hpp"
 #include "tess/property.hpp"
-#include "tools/options/choice.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -50,48 +50,48 @@ void apply_to_single_input(const SiteArguments& arguments, std::vector<Source*>&
     }
 }
 
-double composite_length(const std::string& text, double metres_per_unit) {
-    double length = 0;
-    try {
-        length = parse_length(text, metres_per_unit);
-    } catch (const UsageError& error) {
-        throw UsageError(fmt::format("--composite: {}", error.what()));
-    }
-    if (!(length > 0)) {
-        throw UsageError(fmt::format("--composite: '{}' is not above 0", text));
-    }
-    return length;
-}
-
 /// A length above 0, in whatever unit, or the file of a surface.
-void fault_depth(const std::string& text) {
+std::string checked_fault_depth(const std::string& text) {
     if (text.starts_with("/vsi") || std::filesystem::exists(text)) {
-        return;
+        return text;
     }
     double length = 0;
     try {
-        length = parse_length(text, 1.0);
+        length = parse_length(text).value;
     } catch (const UsageError& error) {
-        throw UsageError(fmt::format("--fault-depth: {}, nor is it the file of a surface", error.what()));
+        throw UsageError(fmt::format("{}, nor is it the file of a surface", error.what()));
     }
     if (!(length > 0)) {
-        throw UsageError(fmt::format("--fault-depth: '{}' is not above 0; give a depth, as in 12km", text));
+        throw UsageError(fmt::format("'{}' is not above 0; give a depth, as in 12km", text));
     }
+    return text;
 }
 
-void parse_azimuth(const std::string& text, SiteInputs& inputs) {
+std::string checked_unit(const std::string& text) {
+    metres_in_unit(text);
+    return text;
+}
+
+double parse_z_scale(const std::string& text) {
+    const double scale = parse_number(text).value_or(0);
+    if (!(scale >= 1e-3 && scale <= 1e3)) {
+        throw UsageError(fmt::format("'{}' is not a number between 0.001 and 1000", text));
+    }
+    return scale;
+}
+
+void take_azimuth(const std::string& text, SiteInputs& inputs) {
     if (const std::string magnetic = "magnetic:"; text.starts_with(magnetic)) {
         const auto declination = parse_number(text.substr(magnetic.size()));
         if (!declination || std::abs(*declination) > 180) {
-            throw UsageError(
-                fmt::format("--azimuth: '{}' carries no declination in degrees, as in magnetic:-7.5", text));
+            throw UsageError(fmt::format("'{}' carries no declination in degrees, as in magnetic:-7.5", text));
         }
         inputs.azimuth = AzimuthReference::magnetic;
         inputs.declination_deg = *declination;
     } else if (text == "grid" || text == "true") {
         inputs.azimuth = text == "grid" ? AzimuthReference::grid : AzimuthReference::true_north;
     } else {
-        throw UsageError(fmt::format("--azimuth: '{}' is not one of grid, true, magnetic:DEGREES{}", text,
+        throw UsageError(fmt::format("'{}' is not one of grid, true, magnetic:DEGREES{}", text,
                                      did_you_mean(text, {"grid", "true", "magnetic:"})));
     }
 }
@@ -138,13 +138,27 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               &a.time_column},
              {{"s_srs", "source-crs"}, "CRS", "of the inputs that carry none", &a.source_crs},
              {{"t_srs", "target-crs"}, "CRS", "of the model: the first projected one by default", &a.target_crs},
-             {{"desurvey"}, "HOW", "minimum-curvature (default), tangential, balanced-tangential", &a.desurvey},
+             {{"desurvey"},
+              "HOW",
+              "minimum-curvature, tangential, balanced-tangential",
+              one_of(a.inputs.desurvey, {{"minimum-curvature", Desurvey::minimum_curvature},
+                                         {"tangential", Desurvey::tangential},
+                                         {"balanced-tangential", Desurvey::balanced_tangential}})},
              {{"dip-convention"},
               "HOW",
-              "auto (default), down-positive, down-negative, inclination",
-              &a.dip_convention},
-             {{"azimuth"}, "FROM", "grid (default), true, or magnetic:DECLINATION", &a.azimuth},
-             {{"depth-unit"}, "UNIT", "of depths along holes, m or ft: the model's by default", &a.depth_unit},
+              "auto, down-positive, down-negative, inclination",
+              one_of(a.inputs.dip, {{"auto", DipConvention::automatic},
+                                    {"down-positive", DipConvention::down_positive},
+                                    {"down-negative", DipConvention::down_negative},
+                                    {"inclination", DipConvention::inclination}})},
+             {{"azimuth"},
+              "FROM",
+              "grid (default), true, or magnetic:DECLINATION",
+              Parsed{[&a](const std::string& text) { take_azimuth(text, a.inputs); }}},
+             {{"depth-unit"},
+              "UNIT",
+              "of depths along holes, m or ft: the model's by default",
+              single(a.inputs.depth_unit, checked_unit)},
              {{"null"},
               "[NAME=]VALUE",
               "a number or word that stands for no value, in all columns or in one; usual codes far from all values "
@@ -155,23 +169,29 @@ std::vector<OptionGroup> site_options(SiteArguments& a) {
               "auto (default: up, but down in columns called depth, TVD, TVDSS), up, down; of tables and of meshes "
               "that "
               "do not say it",
-              &a.z_positive},
+              one_of(a.inputs.z_positive,
+                     {{"auto", ZPositive::automatic}, {"up", ZPositive::up}, {"down", ZPositive::down}})},
              {{"intervals"},
               "WHAT",
               "tops and bottoms of logs: auto (default: depths, but heights where they fall from the collars'), depth, "
               "elevation",
-              &a.intervals},
+              one_of(
+                  a.inputs.intervals,
+                  {{"auto", Intervals::automatic}, {"depth", Intervals::depth}, {"elevation", Intervals::elevation}})},
              {{"fault-depth"},
               "LENGTH|FILE",
               "depth below zero, or surface, to which the faults of traces reach",
-              &a.fault_depth},
+              single(a.inputs.fault_depth, checked_fault_depth)},
              {{"z-scale"},
               "K",
               "for flat sites: tessellate in K times stretched z, where lengths and shapes are judged; by default 1, "
               "more for "
               "data flatter than 10 : 1",
-              &a.z_scale},
-             {{"composite"}, "LENGTH", "bring logs to intervals of this length before all else", &a.composite},
+              single(a.inputs.z_scale, parse_z_scale)},
+             {{"composite"},
+              "LENGTH",
+              "bring logs to intervals of this length before all else",
+              length_value(a.composite)},
              {{"layer"}, "NAME", "layer of a single input", &a.layer},
              {{"where"}, "SQL", "which rows of a single input", &a.where},
              {{"sql"}, "SQL", "a statement instead of a layer, for a single input", &a.sql},
@@ -201,7 +221,7 @@ ColumnNames column_names(const std::vector<std::string>& texts) {
 }
 
 SiteInputs site_inputs(const SiteArguments& a, bool strict) {
-    SiteInputs inputs;
+    SiteInputs inputs = a.inputs;
     std::vector<Source*> all;
     const auto add = [&](const std::vector<std::string>& texts, std::vector<Source>& sources) {
         for (const auto& text : texts) {
@@ -250,56 +270,23 @@ SiteInputs site_inputs(const SiteArguments& a, bool strict) {
     if (!a.time_column.empty()) {
         inputs.columns.emplace_back("time", a.time_column);
     }
-    inputs.desurvey = choose<Desurvey>("--desurvey", a.desurvey,
-                                       {{"minimum-curvature", Desurvey::minimum_curvature},
-                                        {"tangential", Desurvey::tangential},
-                                        {"balanced-tangential", Desurvey::balanced_tangential}});
-    inputs.dip = choose<DipConvention>("--dip-convention", a.dip_convention,
-                                       {{"auto", DipConvention::automatic},
-                                        {"down-positive", DipConvention::down_positive},
-                                        {"down-negative", DipConvention::down_negative},
-                                        {"inclination", DipConvention::inclination}});
-    inputs.z_positive =
-        choose<ZPositive>("--z-positive", a.z_positive,
-                          {{"auto", ZPositive::automatic}, {"up", ZPositive::up}, {"down", ZPositive::down}});
-    inputs.intervals = choose<Intervals>(
-        "--intervals", a.intervals,
-        {{"auto", Intervals::automatic}, {"depth", Intervals::depth}, {"elevation", Intervals::elevation}});
     for (const auto& null : a.nulls) {
         parse_null(null);
     }
     inputs.nulls = a.nulls;
-    if (!a.fault_depth.empty()) {
-        fault_depth(a.fault_depth);
-    }
-    inputs.fault_depth = a.fault_depth;
-    parse_azimuth(a.azimuth, inputs);
-    if (!a.depth_unit.empty()) {
-        parse_length("1" + a.depth_unit, 1.0);
-    }
-    inputs.depth_unit = a.depth_unit;
-    if (!a.composite.empty()) {
-        composite_length(a.composite, 1.0);
-    }
-    if (!a.z_scale.empty()) {
-        inputs.z_scale = parse_number(a.z_scale).value_or(0);
-        if (!(inputs.z_scale >= 1e-3 && inputs.z_scale <= 1e3)) {
-            throw UsageError(fmt::format("--z-scale: '{}' is not a number between 0.001 and 1000", a.z_scale));
-        }
-    }
     inputs.strict = strict;
     return inputs;
 }
 
 void composite_as_asked(Site& site, const SiteArguments& a, Diagnostics& diagnostics) {
-    if (a.composite.empty()) {
+    if (!a.composite) {
         return;
     }
-    const CompositeReport report = composite(site, composite_length(a.composite, site.frame.metres_per_unit));
+    const CompositeReport report = composite(site, a.composite->in(site.frame.metres_per_unit));
     diagnostics.note(
         fmt::format("{} intervals are composited into {} of {}; {} values over less than half of one are "
                     "left out",
-                    report.intervals, report.composites, a.composite, report.dropped));
+                    report.intervals, report.composites, a.composite->text, report.dropped));
 }
 
 std::vector<std::string> input_paths(const SiteArguments& a) {

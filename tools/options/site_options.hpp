@@ -4,6 +4,7 @@
 /// \file
 /// What to read: the options behind io/read_site.hpp.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,16 +28,9 @@ struct SiteArguments {
     std::vector<std::string> columns;
     std::string source_crs;
     std::string target_crs;
-    std::string desurvey = "minimum-curvature";
-    std::string dip_convention = "auto";
-    std::string azimuth = "grid";
-    std::string depth_unit;
+    SiteInputs inputs;  ///< what is a word or a number there too; its defaults are those of the options
     std::vector<std::string> nulls;
-    std::string z_positive = "auto";
-    std::string intervals = "auto";
-    std::string fault_depth;
-    std::string composite;
-    std::string z_scale;  ///< empty: chosen for flat data
+    std::optional<Length> composite;
     std::string layer;
     std::string where;
     std::string sql;
@@ -57,8 +51,7 @@ SiteInputs site_inputs(const SiteArguments& arguments, bool strict);
 /// All files that are named as inputs, as they were given.
 std::vector<std::string> input_paths(const SiteArguments& arguments);
 
-/// Composites the logs if --composite asks for it (interp/plan/composite.hpp), and notes what came of it. Throws
-/// UsageError for what is no length above 0.
+/// Composites the logs if --composite asks for it (interp/plan/composite.hpp), and notes what came of it.
 void composite_as_asked(Site& site, const SiteArguments& arguments, Diagnostics& diagnostics);
 
 }  // namespace terratet::tools

@@ -13,16 +13,11 @@
 #include "tess/model/tolerance.hpp"
 
 namespace terratet::tools {
-namespace {
-
-struct AskedTolerance {
-    std::string property;  ///< empty: all
-    double value = 0;
-    bool percent = false;  ///< of the range of its samples
-};
-
-/// "P=T", "P=N%" or "N%".
+/// "P=T", "P=N%", "N%" or "auto".
 AskedTolerance parse_tolerance(const std::string& text) {
+    if (text == "auto") {
+        return {.automatic = true};
+    }
     const auto equals = text.rfind('=');
     std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
     AskedTolerance asked;
@@ -31,17 +26,16 @@ AskedTolerance parse_tolerance(const std::string& text) {
     number.resize(number.size() - (asked.percent ? 1 : 0));
     const auto value = parse_number(number);
     if (!value || equals == 0 || (equals == std::string::npos && !asked.percent)) {
-        throw UsageError(fmt::format(
-            "--tolerance: '{}' is not PROPERTY=NUMBER, such as CU=0.1, PROPERTY=10%, 10% for all, or auto", text));
+        throw UsageError(
+            fmt::format("'{}' is not PROPERTY=NUMBER, such as CU=0.1, PROPERTY=10%, 10% for all, or auto{}", text,
+                        did_you_mean(text, {"auto"})));
     }
     if (!(*value > 0) || !std::isfinite(*value)) {
-        throw UsageError(fmt::format("--tolerance: '{}' is not above 0", text));
+        throw UsageError(fmt::format("'{}' is not above 0", text));
     }
     asked.value = *value;
     return asked;
 }
-
-}  // namespace
 
 std::vector<Property>::const_iterator find_property(const std::string& option, const std::string& name,
                                                     const std::vector<Property>& properties) {
@@ -54,22 +48,11 @@ std::vector<Property>::const_iterator find_property(const std::string& option, c
     return found;
 }
 
-bool is_automatic(const std::string& tolerance) {
-    return tolerance == "auto";
-}
-
-void check_tolerance(const std::string& text) {
-    if (!is_automatic(text)) {
-        parse_tolerance(text);
-    }
-}
-
-void set_tolerances(const std::vector<std::string>& texts, const Site& site, Criteria& criteria) {
-    for (const auto& text : texts) {
-        if (is_automatic(text)) {
+void set_tolerances(const std::vector<AskedTolerance>& tolerances, const Site& site, Criteria& criteria) {
+    for (const AskedTolerance& asked : tolerances) {
+        if (asked.automatic) {
             continue;
         }
-        const AskedTolerance asked = parse_tolerance(text);
         if (!asked.property.empty()) {
             const auto found = find_property("--tolerance", asked.property, site.properties);
             if (found->kind == Kind::categorical) {

@@ -16,13 +16,17 @@ namespace terratet::tools {
 std::vector<Property>::const_iterator find_property(const std::string& option, const std::string& name,
                                                     const std::vector<Property>& properties);
 
-/// Is it to be chosen from the samples?
-bool is_automatic(const std::string& tolerance);
+struct AskedTolerance {
+    bool automatic = false;  ///< to be chosen from the samples
+    std::string property{};  ///< empty: all
+    double value = 0;
+    bool percent = false;  ///< of the range of its samples
+};
 
 /// Throws UsageError for what is no tolerance.
-void check_tolerance(const std::string& text);
+AskedTolerance parse_tolerance(const std::string& text);
 
-/// Throws UsageError: also for a property there is none of, and for a category.
-void set_tolerances(const std::vector<std::string>& texts, const Site& site, Criteria& criteria);
+/// Throws UsageError for a property there is none of, and for a category.
+void set_tolerances(const std::vector<AskedTolerance>& tolerances, const Site& site, Criteria& criteria);
 
 }  // namespace terratet::tools

@@ -18,6 +18,7 @@
 #include "tools/options/model_options.hpp"
 #include "tools/options/query_options.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -136,10 +137,10 @@ void move(const EditArguments& a, ModelPlan& plan) {
     }
     const Frame& frame = plan.site.frame;
     if (!a.by.empty()) {
-        const auto n = parse_numbers("--by", a.by, 2, 3);
+        const auto n = option_numbers("--by", a.by, 2, 3);
         move_borehole(plan.site, id, frame.to_local_size({n[0], n[1], n.size() > 2 ? n[2] : 0}));
     } else {
-        const auto n = parse_numbers("--to", a.to, 3, 3);
+        const auto n = option_numbers("--to", a.to, 3, 3);
         const Vec3 collar = plan.site.boreholes[find_borehole(plan.site, id)].collar;
         move_borehole(plan.site, id, frame.to_local({n[0], n[1], n[2]}) - collar);
     }
@@ -248,17 +249,16 @@ void refine_box(const EditArguments& a, ModelPlan& plan) {
     if (a.box.empty()) {
         throw UsageError("edit refine: give --box xmin,ymin,zmin,xmax,ymax,zmax");
     }
-    const auto n = parse_numbers("--box", a.box, 6, 6);
+    const auto n = option_numbers("--box", a.box, 6, 6);
     const Box3 box{plan.site.frame.to_local({n[0], n[1], n[2]}), plan.site.frame.to_local({n[3], n[4], n[5]})};
     const auto [l_min, l_max] = resolution_at(plan.criteria, box.center());
-    const auto length = [&](const std::string& text, double standard) {
-        return text.empty() ? short_number(standard) : text;
-    };
-    set_resolution(
-        plan,
-        parsed_option("resolution",
-                      fmt::format("{}={},{}", a.box, length(a.l_min, l_min / 2), length(a.l_max, l_max / 2)), plan.site)
-            .criteria.overrides.front());
+    const double unit = plan.site.frame.metres_per_unit;
+    ResolutionOverride part;
+    part.box = box;
+    part.l_min = a.l_min ? a.l_min->in(unit) : l_min / 2;
+    part.l_max = a.l_max ? a.l_max->in(unit) : l_max / 2;
+    set_resolution(plan, part);
+    validate(plan.criteria);
 }
 
 }  // namespace

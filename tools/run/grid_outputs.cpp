@@ -27,7 +27,8 @@ std::vector<VoxelOutput> voxel_outputs(const std::vector<std::string>& texts, co
     std::vector<VoxelOutput> outputs;
     for (const std::string& text : texts) {
         const OutputRequest output = parse_output(text, of_grid);
-        std::string format = output_format(output.path, output.format.empty() ? arguments.format : output.format);
+        std::string format =
+            output_format(output.path, output.format.empty() ? arguments.writers.format : output.format);
         format = format == "CSV" ? "BLOCKS" : format;
         if (output.path == "-" || !is_voxel_format(format)) {
             throw UsageError(fmt::format("{}: a grid becomes .vdb, .tif, .nc, .csv or a tileset (.json), not {}",
@@ -35,7 +36,7 @@ std::vector<VoxelOutput> voxel_outputs(const std::vector<std::string>& texts, co
         }
         outputs.push_back({output.path, format});
     }
-    if (!arguments.voxel_size.empty()) {
+    if (arguments.voxel_size) {
         throw UsageError("--voxel-size: a grid keeps its own places; models are exported with other ones");
     }
     return outputs;

@@ -119,7 +119,7 @@ std::string made_by(const Model& model) {
 }
 
 const std::string& format_of(const OutputRequest& output, const ExportArguments& arguments) {
-    return output.format.empty() ? arguments.format : output.format;
+    return output.format.empty() ? arguments.writers.format : output.format;
 }
 
 /// Standard output is written on its own.
@@ -254,7 +254,7 @@ Written write_outputs(const ModelSnapshot& model, const std::vector<std::string>
     const auto write_output = [&](const std::string& text) {
         if (names_model(text)) {
             save_model(text, model.model(), entry,
-                       {.overwrite = run.overwrite, .spatial_index = with_creation_options(arguments).spatial_index});
+                       {.overwrite = run.overwrite, .spatial_index = arguments.spatial_index});
             std::error_code no_file;
             const auto bytes = fs::file_size(text, no_file);
             written.outputs.push_back({text, no_file ? 0 : bytes});

@@ -28,16 +28,16 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
             chosen.emplace_back(name, short_number(value));
         }
     };
-    const bool tolerance_chosen = a.tolerance.empty() || std::ranges::any_of(a.tolerance, is_automatic);
+    const bool tolerance_chosen = a.tolerance.empty() || std::ranges::any_of(a.tolerance, &AskedTolerance::automatic);
     for (std::size_t p = 0; p < model.properties.size() && tolerance_chosen; ++p) {
         const double tolerance = p < model.criteria.variation.size() ? model.criteria.variation[p].tolerance : 0;
         if (tolerance > 0) {
             chosen.emplace_back("tolerance", model.properties[p].name + "=" + short_number(tolerance));
         }
     }
-    add(!a.l_min.empty(), "lmin", model.criteria.l_min);
-    add(!a.l_max.empty(), "lmax", model.criteria.l_max);
-    if (a.extent.empty()) {
+    add(a.l_min.has_value(), "lmin", model.criteria.l_min);
+    add(a.l_max.has_value(), "lmax", model.criteria.l_max);
+    if (!a.extent) {
         const Vec3 lo = model.frame.to_world(model.domain.extent.lo);
         const Vec3 hi = model.frame.to_world(model.domain.extent.hi);
         chosen.emplace_back("extent", fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{:.10g},{:.10g}", lo.x, lo.y, lo.z,
@@ -46,8 +46,8 @@ std::vector<std::pair<std::string, std::string>> chosen_defaults(const ModelArgu
     add(model.frame.z_scale == 1 || z_scale_given, "z-scale", model.frame.z_scale);
     if (!model.barriers.empty()) {
         const double spacing = model.barrier_options.spacing > 0 ? model.barrier_options.spacing : model.criteria.l_min;
-        add(!a.fault_spacing.empty() && a.fault_spacing != "auto", "fault-spacing", spacing);
-        add(!a.fault_width.empty(), "fault-width",
+        add(a.fault_spacing.has_value(), "fault-spacing", spacing);
+        add(a.fault_width.has_value(), "fault-width",
             model.barrier_options.width > 0 ? model.barrier_options.width : spacing / 4);
     }
     return chosen;
@@ -71,11 +71,10 @@ LiveModel read_and_build(const SiteArguments& site_arguments, const ModelArgumen
 
     BuildOptions options = build_options(arguments, site);
     options.refine.progress = progress;
-    record.estimator = parse_estimator(arguments.estimator);
-    options.estimator = record.estimator.to_string();
+    record.estimator = arguments.estimator;
     LiveModel live(std::move(site), options, record.report, progress);
 
-    record.defaults = chosen_defaults(arguments, !site_arguments.z_scale.empty(), live.model());
+    record.defaults = chosen_defaults(arguments, site_arguments.inputs.z_scale > 0, live.model());
     record.seconds.insert(record.report.seconds.begin(), record.report.seconds.end());
     auto& all = record.diagnostics;
     const auto& built = record.report.diagnostics;

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "tools/options/choice.hpp"
 #include "tools/run/interrupt.hpp"
 
 namespace terratet::tools {
@@ -62,10 +61,12 @@ void ProgressDisplay::write_line(std::string_view stage, double fraction) {
     std::fflush(stream_);
 }
 
-ProgressDisplay::Style progress_style(const std::string& word, bool quiet) {
+ProgressDisplay::Style progress_style(ProgressStyle asked, bool quiet) {
     using Style = ProgressDisplay::Style;
-    const Style automatic = isatty(STDERR_FILENO) == 1 && !quiet ? Style::bar : Style::none;
-    return choose<Style>("--progress", word, {{"auto", automatic}, {"none", Style::none}, {"json", Style::lines}});
+    if (asked == ProgressStyle::automatic) {
+        return isatty(STDERR_FILENO) == 1 && !quiet ? Style::bar : Style::none;
+    }
+    return asked == ProgressStyle::json ? Style::lines : Style::none;
 }
 
 }  // namespace terratet::tools

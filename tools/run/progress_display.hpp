@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tess/progress.hpp"
+#include "tools/options/run_options.hpp"
 
 namespace terratet::tools {
 
@@ -42,7 +43,7 @@ class ProgressDisplay {
     bool bar_stands_ = false;
 };
 
-/// auto: a bar when standard error is a terminal and `quiet` is not asked for. Throws UsageError for an unknown word.
-ProgressDisplay::Style progress_style(const std::string& word, bool quiet);
+/// auto: a bar when standard error is a terminal and `quiet` is not asked for.
+ProgressDisplay::Style progress_style(ProgressStyle asked, bool quiet);
 
 }  // namespace terratet::tools

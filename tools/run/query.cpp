@@ -16,6 +16,7 @@
 #include "tess/error.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/values.hpp"
 
 namespace terratet::tools {
 namespace {
@@ -100,7 +101,7 @@ QueryPoints::QueryPoints(const ModelSnapshot& opened, const QueryArguments& a) {
     points.table.columns = {"x", "y", "z"};
     points.table.cells.resize(3);
     for (const std::string& text : a.at) {
-        const auto n = parse_numbers("--at", text, 3, 3);
+        const auto n = option_numbers("--at", text, 3, 3);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             points.table.cells[axis].push_back(full(n[axis]));
         }

@@ -102,11 +102,7 @@ class Line {
 };
 
 double step_asked(const QueryArguments& a, const Model& model) {
-    const double step = a.step.empty() ? model.criteria.l_min / 2 : parse_length(a.step, model.frame.metres_per_unit);
-    if (!(step > 0)) {
-        throw UsageError("query line --step: '" + a.step + "' is not above 0");
-    }
-    return step;
+    return a.step ? a.step->in(model.frame.metres_per_unit) : model.criteria.l_min / 2;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tess/cut_cells.hpp"
 #include "tess/error.hpp"
 #include "tess/model/regions.hpp"
+#include "tools/options/values.hpp"
 #include "tools/run/query.hpp"
 
 namespace terratet::tools {
@@ -32,7 +33,7 @@ std::optional<Cut> cut_asked(const std::string& text, const Model& model) {
         throw UsageError(
             fmt::format("query region --above: '{}' is not P=V, with a property P that has numbers", text));
     }
-    const double value = parse_numbers("--above", text.substr(equals + 1), 1, 1).front();
+    const double value = option_numbers("--above", text.substr(equals + 1), 1, 1).front();
     const double level = to_scale(*found, value);
     if (std::isnan(level)) {
         throw UsageError(fmt::format("query region --above: {} has no logarithm", text.substr(equals + 1)));

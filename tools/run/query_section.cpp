@@ -6,6 +6,7 @@
 
 #include "tess/cut_cells.hpp"
 #include "tess/error.hpp"
+#include "tools/options/values.hpp"
 #include "tools/run/query.hpp"
 
 namespace terratet::tools {
@@ -208,7 +209,7 @@ class Section {
 };
 
 Part plane_asked(const std::string& text, const Frame& frame) {
-    const auto n = parse_numbers("--plane", text, 6, 6);
+    const auto n = option_numbers("--plane", text, 6, 6);
     // The normal of a plane in stretched space: planes z = a x + b y + c become z/k = a x + b y + c.
     const Vec3 normal{n[3], n[4], n[5] / frame.z_scale};
     if (!(length(normal) > 0)) {

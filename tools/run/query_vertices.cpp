@@ -16,6 +16,7 @@
 #include "tess/mesh/quality.hpp"
 #include "tools/options/site_options.hpp"
 #include "tools/options/text.hpp"
+#include "tools/options/values.hpp"
 #include "tools/run/query.hpp"
 
 namespace terratet::tools {
@@ -111,7 +112,7 @@ class VertexQueries {
         if (text.empty()) {
             throw UsageError("query box: give --box xmin,ymin,zmin,xmax,ymax,zmax");
         }
-        const auto n = parse_numbers("--box", text, 6, 6);
+        const auto n = option_numbers("--box", text, 6, 6);
         return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     }
 
@@ -141,13 +142,10 @@ class VertexQueries {
             }
             count = std::min(count, static_cast<std::size_t>(*k));
         } else {
-            if (a_.distance.empty()) {
+            if (!a_.distance) {
                 throw UsageError("query within: give -d DISTANCE");
             }
-            radius = parse_length(a_.distance, model_.frame.metres_per_unit);
-            if (!(radius >= 0)) {
-                throw UsageError("query within -d: '" + a_.distance + "' is below 0");
-            }
+            radius = a_.distance->in(model_.frame.metres_per_unit);
         }
         std::vector<Vec3> places;
         for (const Vertex& vertex : model_.vertices) {

@@ -342,7 +342,7 @@ Lower lower_of(const Crs& crs, const SurfaceOptions& options, const ColumnNames&
         return lower;
     }
     if (file_bytes(source.path, 0, 1).empty()) {
-        lower.general_m = parse_length(options.fault_depth, crs.metres_per_height) * crs.metres_per_height;
+        lower.general_m = parse_length(options.fault_depth).in(crs.metres_per_height) * crs.metres_per_height;
         return lower;
     }
     RawSurfaces found = read_surfaces(source, SurfaceKind::horizon, names, diagnostics, {options.z_positive, ""});

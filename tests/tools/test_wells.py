@@ -267,6 +267,9 @@ more of it"
         rows = self.points("--boreholes", cpt, "--lmin", "0.1", "--lmax", "50")
         self.assertEqual(self.heights(rows, "qc"), {3.1: 4, 2.2: 6})
         self.assertIn("28992", self.info(cpt)["crs"])
+        dug = self.write("d.gef", head + "#COLUMNINFO= 1, m, length, 1\n#COLUMNINFO= 2, MPa, qc, 2\n#MEASUREMENTVAR= 13, 1, m, dug\n#EOH=\n"
+                         "-0 3\n0.5 4\n")
+        self.fail_with(3, "info", dug, saying="all its 2 rows lie in the 1 m dug before the test")
         bore = self.write("b.gef", head + "#REPORTCODE= GEF-BORE-Report, 1, 0, 0\n#COLUMNTEXT= 1, aan\n#COLUMNSEPARATOR= ;\n#RECORDSEPARATOR= !\n"
                           "#COLUMNINFO= 1, m, top, 1\n#COLUMNINFO= 2, m, base, 2\n#COLUMNINFO= 3, mm, median, 8\n#EOH=\n"
                           "0.0;2.0;200;'Zs1';'GR';!\n2.0;6.0;300;'Kz2';!\n")

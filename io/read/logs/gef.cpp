@@ -235,6 +235,11 @@ class GefReader {
         }
         const auto dug = std::erase_if(
             rows_, [&](const Row& row) { return parse_number(row.cells[column]).value_or(excavated_) < excavated_; });
+        if (rows_.empty()) {
+            throw InputError(
+                fmt::format("{}: all its {} rows lie in the {:g} m dug before the test; none is a measurement", file_,
+                            dug, excavated_));
+        }
         if (dug > 0) {
             result_.notes.push_back(
                 fmt::format("{} rows lie in the {:g} m dug before the test and are left out", dug, excavated_));

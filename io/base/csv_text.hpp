@@ -21,10 +21,18 @@ void append_csv_text(std::string& row, std::string_view text);
 /// The text as it was before append_csv_text.
 std::string_view without_formula_mark(std::string_view text);
 
+/// The fewest digits that read back as the same number; coordinates without an exponent, as people write them: 500000.
 template <class Number>
 void append_csv_number(std::string& row, Number value) {
     char digits[32];
-    row.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+    char* const end = digits + sizeof digits;
+    if constexpr (std::is_floating_point_v<Number>) {
+        if (std::abs(value) >= 1e5F && std::abs(value) < 1e15F) {
+            row.append(digits, std::to_chars(digits, end, value, std::chars_format::fixed).ptr);
+            return;
+        }
+    }
+    row.append(digits, std::to_chars(digits, end, value).ptr);
 }
 
 /// Nothing for a missing value; a category by its name.

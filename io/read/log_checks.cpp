@@ -194,6 +194,9 @@ void accept_elevations(Table& log, const Holes& holes, const SiteInputs& inputs,
             log.cells[static_cast<std::size_t>(column)] = as_depths(log, columns, column, holes, meaning);
         }
     }
+    if (meaning == Heights::elevations) {
+        log.stated.metres_per_depth = 0;  // as_depths gives them in the hole's unit
+    }
     if (find_optional_column(log, Meaning::from, inputs.columns) < 0 &&
         find_optional_column(log, Meaning::depth, inputs.columns) < 0) {
         log.columns[static_cast<std::size_t>(columns.from)] = "DEPTH";

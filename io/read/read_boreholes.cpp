@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "io/read/tables/header_units.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -42,6 +43,11 @@ int require_column(const Table& table, Meaning meaning, const ColumnNames& names
 /// Metres in a unit of depth: what the user says, else the unit of the collars' own plane (metres for degrees).
 double metres_per_depth(const Crs& collar_crs, const std::string& depth_unit) {
     return depth_unit.empty() ? collar_crs.metres_per_unit : metres_in_unit(depth_unit);
+}
+
+/// The two kinds of foot differ by two parts in a million.
+bool same_unit(double metres, double other) {
+    return std::abs(metres / other - 1) < 1e-5;
 }
 
 /// Exactly 1 between the two kinds of foot, which differ by two parts in a million.
@@ -205,6 +211,8 @@ void read_collars(const PlacedTable& placed, const Crs& own_crs, const Crs& targ
     const DirectionColumns columns = direction_columns(table, inputs, diagnostics);
     const CrsTransform in_target(target, target);
     const double factor = depth_factor(own_crs, target, inputs.depth_unit);
+    const auto length_unit = inputs.depth_unit.empty() ? stated_length_unit(table, length_column) : std::nullopt;
+    const double length_factor = length_unit ? length_unit->metres / target.metres_per_unit : factor;
     note_depth_unit(table, own_crs, target, inputs, diagnostics);
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const std::string id(cell(table, id_column, row));
@@ -229,7 +237,7 @@ void read_collars(const PlacedTable& placed, const Crs& own_crs, const Crs& targ
         if (length_column >= 0 && parse_number(cell(table, length_column, row))) {
             std::string ignored;  // a length is a courtesy: a hole does without
             collar.length =
-                std::max(0.0, parse_depth(table, length_column, row, factor, target.metres_per_unit, ignored));
+                std::max(0.0, parse_depth(table, length_column, row, length_factor, target.metres_per_unit, ignored));
         }
         if (columns.dip >= 0 && !cell(table, columns.dip, row).empty()) {
             std::string problem;
@@ -301,6 +309,46 @@ std::vector<SurveyStation> stations_of(const std::map<double, SurveyStation>& su
 }
 
 }  // namespace
+
+void take_stated_depth_unit(Table& table, const Crs& target, const SiteInputs& inputs, Diagnostics& diagnostics) {
+    if (table.stated.metres_per_depth > 0) {
+        return;
+    }
+    std::array columns{find_optional_column(table, Meaning::from, inputs.columns),
+                       find_optional_column(table, Meaning::to, inputs.columns)};
+    if (columns[0] < 0 || columns[1] < 0) {
+        columns = {find_optional_column(table, Meaning::depth, inputs.columns), columns[0]};
+    }
+    std::optional<StatedUnit> unit;
+    std::string column;
+    for (const int index : columns) {
+        const std::optional<StatedUnit> stated = stated_length_unit(table, index);
+        if (inputs.depth_unit.empty() && stated && unit && !same_unit(stated->metres, unit->metres)) {
+            throw InputError(fmt::format("{}: columns {} and {} state different units; `depth_unit` says which holds",
+                                         table.file, column, header(table, index)));
+        }
+        if (stated && !unit) {
+            unit = stated;
+            column = header(table, index);
+        }
+    }
+    if (!unit) {
+        return;
+    }
+    if (!inputs.depth_unit.empty()) {
+        if (!same_unit(unit->metres, metres_in_unit(inputs.depth_unit))) {
+            diagnostics.note(
+                fmt::format("{}: column {} states {}; its depths are taken in {} all the same, as asked for",
+                            table.file, column, unit->text, inputs.depth_unit));
+        }
+        return;
+    }
+    table.stated.metres_per_depth = unit->metres;
+    if (!same_unit(unit->metres, target.metres_per_unit)) {
+        diagnostics.note(fmt::format("{}: depths are taken in {}, as column {} states (`depth_unit` says otherwise)",
+                                     table.file, unit->text, column));
+    }
+}
 
 double depth_factor(const Table& table, double hole_factor, const Crs& target) {
     const double factor = table.stated.metres_per_depth / target.metres_per_unit;

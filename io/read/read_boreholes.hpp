@@ -47,6 +47,11 @@ Holes read_boreholes(const std::vector<PlacedTable>& collars, const std::vector<
                      const std::vector<Table>& surveys, const std::vector<HolePath>& paths, const Crs& target,
                      const SiteInputs& inputs, Diagnostics& diagnostics);
 
+/// Lets the depths of a survey or log have the unit that their columns state (io/read/tables/header_units.hpp; noted
+/// where it is not the target's), unless the table's format or `inputs` says it. Throws InputError: two columns state
+/// different ones.
+void take_stated_depth_unit(Table& table, const Crs& target, const SiteInputs& inputs, Diagnostics& diagnostics);
+
 /// Target units in a unit of a table's depths: its own where it states one, else the hole's.
 double depth_factor(const Table& table, double hole_factor, const Crs& target);
 

@@ -11,6 +11,7 @@
 
 #include "io/read/tables/area_of_use.hpp"
 #include "io/read/tables/degrees.hpp"
+#include "io/read/tables/header_units.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -117,6 +118,20 @@ double height_sign(const Table& table, const PositionColumns& columns, ZPositive
     return z_positive == ZPositive::down ? -1 : 1;
 }
 
+/// Heights of the column in units of the CRS's: other than 1 where its header states another unit (noted). Where those
+/// beside it state the same, or the CRS is local, all three are in one unit, whatever it is.
+double height_factor(const Table& table, const PositionColumns& columns, const Crs& crs, Diagnostics& diagnostics) {
+    const auto stated = crs.local ? std::nullopt : stated_length_unit(table, columns.z);
+    const auto beside = stated_length_unit(table, columns.x);
+    if (!stated || std::abs(stated->metres / crs.metres_per_height - 1) < 1e-5 ||
+        (beside && beside->metres == stated->metres)) {
+        return 1;
+    }
+    diagnostics.note(fmt::format("{}: heights are taken in {}, as column {} states", table.file, stated->text,
+                                 header(table, columns.z)));
+    return stated->metres / crs.metres_per_height;
+}
+
 /// The codes in a column of coordinates that are none, by themselves or since the user says so.
 class NoCoordinates {
   public:
@@ -154,16 +169,16 @@ struct PositionReader {
     const Table& table;
     const Crs& crs;
     PositionColumns columns;
-    double height_sign = 1;
+    double height_factor = 1;           ///< to the CRS's unit, negative where they count downwards
     std::vector<NoCoordinates> none{};  ///< an axis each
     std::vector<Vec3> numbers{};        ///< a row each: what stands in the columns, NaN where that is no number
     bool plain = false;                 ///< numbers that stand in columns are coordinates, whatever they are
 };
 
 /// Each cell is looked at once: what is no number, and what may stand for none, is looked at again by its row.
-PositionReader position_reader(const Table& table, const Crs& crs, const PositionColumns& columns, double height_sign,
+PositionReader position_reader(const Table& table, const Crs& crs, const PositionColumns& columns, double height_factor,
                                const std::vector<NullValue>& nulls) {
-    PositionReader reader{table, crs, columns, height_sign};
+    PositionReader reader{table, crs, columns, height_factor};
     reader.numbers.assign(table.rows(), nowhere);
     reader.plain = columns.plane() && columns.z >= 0;
     std::vector<double> values(table.rows());
@@ -217,7 +232,7 @@ double coordinate(const PositionReader& reader, int axis, int column, std::size_
         problem = text.empty() ? fmt::format("column {} is empty", header(table, column))
                                : fmt::format("column {}: '{}' is not a number", header(table, column), text);
     }
-    return value.value_or(missing) * (axis == 2 ? reader.height_sign : 1);
+    return value.value_or(missing) * (axis == 2 ? reader.height_factor : 1);
 }
 
 /// A row's position; nowhere, with the reason in `problem`, when it has none that is acceptable.
@@ -231,7 +246,7 @@ Vec3 position(const PositionReader& reader, std::size_t row, std::string& proble
         return nowhere;
     }
     Vec3 result = reader.numbers[row];
-    result.z *= reader.height_sign;
+    result.z *= reader.height_factor;
     if (!reader.plain || !is_finite(result)) {
         const Vec3 point = table.points.empty() ? nowhere : table.points[row].value_or(nowhere);
         result = {coordinate(reader, 0, from_columns ? columns.x : -1, row, point.x, problem),
@@ -290,7 +305,9 @@ PlacedTable place(Table table, const Source& source, const std::string& general_
     PlacedTable placed{std::move(table), std::move(crs), {}};
     const Table& held = placed.table;
     PositionReader reader = position_reader(held, placed.crs, columns,
-                                            height_sign(held, columns, options.z_positive, diagnostics), options.nulls);
+                                            height_sign(held, columns, options.z_positive, diagnostics) *
+                                                height_factor(held, columns, placed.crs, diagnostics),
+                                            options.nulls);
     for (std::size_t row = 0; row < placed.table.rows(); ++row) {
         std::string problem;
         reader.numbers[row] = position(reader, row, problem);

@@ -77,6 +77,7 @@ class Inspector {
                 if (table.stated.hole_names.empty()) {
                     join_ids(table, read.collars, inputs_.columns, said_);
                 }
+                take_stated_depth_unit(table, metric, inputs_, said_);
             }
         }
         SiteInputs grid = inputs_;

@@ -377,6 +377,11 @@ Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& co
             }
         }
     }
+    for (std::vector<Table>* const tables : {&read.surveys, &read.logs}) {
+        for (Table& table : *tables) {
+            take_stated_depth_unit(table, target, inputs, diagnostics);
+        }
+    }
     Holes holes = read_boreholes(read.collars, collar_crs, read.surveys, read.paths, target, inputs, diagnostics);
     checkpoint.pass(0.8);
 

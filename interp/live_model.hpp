@@ -27,6 +27,10 @@ class LiveModel {
     /// keeps it as it was chosen and fitted.
     explicit LiveModel(Site site, const BuildOptions& options = {}, const Progress& progress = {});
     LiveModel(Site site, const BuildOptions& options, BuildReport& report, const Progress& progress = {});
+    /// A site as it was measured, to estimate from and nothing else: its samples are merged as a build merges them, its
+    /// faults bar as they are, and its horizons where they are hard for some property. It has no vertices.
+    static LiveModel measured(Site site);
+
     /// From a state of another one on: what is edited here leaves the other as it is.
     explicit LiveModel(const std::shared_ptr<const ModelSnapshot>& state);
     ~LiveModel();

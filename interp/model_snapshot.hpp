@@ -15,6 +15,7 @@
 #include "tess/barrier_query.hpp"
 #include "tess/build.hpp"
 #include "tess/collapse.hpp"
+#include "tess/verify.hpp"
 
 namespace terratet {
 
@@ -58,6 +59,11 @@ class ModelSnapshot {
     /// The vertices next to a borehole's own in the Voronoi sense, ascending: whose cells share a wall with one of its
     /// samples' cells. Throws UsageError when there is no such borehole. O(cells).
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const;
+
+    /// Each guarantee, verified again with the model's own estimator (tess/verify.hpp). \param edited  it was changed
+    /// since it was built
+    [[nodiscard]] std::vector<Verdict> verify(bool edited, const Progress& progress = {},
+                                              const VerifyOptions& options = {}) const;
 
     /// Gives up what only queries and edits want again, for the writers to come: tessellation and estimators. Whoever
     /// asks has them made anew. \pre Nobody holds a reference to them.

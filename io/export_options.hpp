@@ -25,6 +25,7 @@ struct ModelView {
     const TetMesh& mesh;
     const CellTable& cells;
     const ModelEstimator* estimator = nullptr;  ///< of the model, where voxels are to have its values
+    const BarrierQuery* barriers = nullptr;     ///< of the model; null: whoever wants them makes them
 };
 
 enum class FaultGap {

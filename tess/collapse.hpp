@@ -20,6 +20,7 @@
 /// rim. So twin facets have the same positions by construction. check_conformity() tests all this afresh on each
 /// result.
 
+#include "tess/barrier_query.hpp"
 #include "tess/collapsed_model.hpp"
 #include "tess/progress.hpp"
 
@@ -30,9 +31,14 @@ enum class Collapsing {
     all,
 };
 
-/// What lies above the ground and outside the outline is not in the result. `mesh` and `cells` are the model's own. O(n
-/// log n); as many passes as there are rounds of giving up, few. Progress goes by the stages `collapse faults` and
-/// `mend cells`.
+/// What lies above the ground and outside the outline is not in the result. `mesh`, `cells` and `barriers` are the
+/// model's own. O(n log n); as many passes as there are rounds of giving up, few. Progress goes by the stages
+/// `collapse faults` and `mend cells`.
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
+                               const BarrierQuery& barriers, Collapsing which = Collapsing::all,
+                               const Progress& progress = {});
+
+/// The same, with the model's barriers made for it.
 CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
                                Collapsing which = Collapsing::all, const Progress& progress = {});
 

@@ -122,6 +122,21 @@ struct LiveModel::Impl {
     mutable std::mutex mutex;  ///< of the pointer
 };
 
+LiveModel LiveModel::measured(Site site) {
+    Model model;
+    static_cast<Site&>(model) = std::move(site);
+    merge_coincident(model.samples, model.properties);
+    const bool hard = std::ranges::any_of(model.properties, &Property::hard_horizons);
+    for (const Surface& surface : model.surfaces) {
+        if (surface.kind == SurfaceKind::fault || (hard && surface.kind == SurfaceKind::horizon)) {
+            Barrier& barrier = model.barriers.emplace_back();
+            barrier.name = surface.name;
+            barrier.sheet = surface;
+        }
+    }
+    return LiveModel(std::move(model));
+}
+
 LiveModel::LiveModel(Model model) : impl_(std::make_unique<Impl>()) {
     impl_->newest = std::make_shared<ModelSnapshot>(std::move(model));
 }

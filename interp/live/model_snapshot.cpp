@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "interp/estimator_plan.hpp"
+#include "interp/plan/model_source.hpp"
 #include "interp/plan/uncertainty.hpp"
 #include "tess/error.hpp"
 #include "tess/site_edits.hpp"
@@ -16,9 +17,9 @@
 namespace terratet {
 namespace {
 
-CollapsedModel collapse_checked(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which,
-                                const Progress& progress) {
-    CollapsedModel result = collapse_faults(model, mesh, cells, which, progress);
+CollapsedModel collapse_checked(const TessellatedModel& made, Collapsing which, const Progress& progress) {
+    const Model& model = made.model;
+    CollapsedModel result = collapse_faults(model, made.mesh, made.cells, *made.barriers, which, progress);
     const Conformity& c = result.report.conformity;
     if (!c.proper()) {
         const Vec3 where = model.frame.to_world(c.places.empty() ? Vec3{} : c.places.front());
@@ -55,21 +56,24 @@ struct ModelSnapshot::Impl {
         return *made->barriers;
     }
 
-    const TessellatedModel& tessellation() {
+    Tessellation& tessellation() {
+        if (!made->tessellation) {
+            made->tessellation = tessellate(made->model);
+        }
+        return *made->tessellation;
+    }
+
+    const TetMesh& mesh() {
         if (!tessellated) {
-            if (!made->tessellation) {
-                made->tessellation = tessellate(made->model);
-            }
-            made->mesh = made->tessellation->mesh();
+            made->mesh = tessellation().mesh();
             tessellated = true;
         }
-        return *made;
+        return made->mesh;
     }
 
     const CellTable& cells() {
         if (!described) {
-            const TetMesh& mesh = tessellation().mesh;
-            made->cells = describe_cells(made->model, mesh, barriers());
+            made->cells = describe_cells(made->model, mesh(), barriers());
             described = true;
         }
         return made->cells;
@@ -153,7 +157,7 @@ const BarrierQuery& ModelSnapshot::barriers() const {
 
 const TetMesh& ModelSnapshot::mesh() const {
     const std::lock_guard lock(impl_->mutex);
-    return impl_->tessellation().mesh;
+    return impl_->mesh();
 }
 
 const CellTable& ModelSnapshot::cells() const {
@@ -164,19 +168,38 @@ const CellTable& ModelSnapshot::cells() const {
 bool ModelSnapshot::is_delaunay() const {
     const std::lock_guard lock(impl_->mutex);
     if (!impl_->delaunay) {
-        const auto& kept = impl_->tessellation().tessellation;
-        impl_->delaunay = kept ? kept->is_delaunay() : tessellate(impl_->made->model).is_delaunay();
+        impl_->delaunay = impl_->made->tessellation || !impl_->tessellated
+                              ? impl_->tessellation().is_delaunay()
+                              : tessellate(impl_->made->model).is_delaunay();  // was given up, and is not wanted again
     }
     return *impl_->delaunay;
+}
+
+std::vector<Verdict> ModelSnapshot::verify(bool edited, const Progress& progress, const VerifyOptions& options) const {
+    const std::lock_guard lock(impl_->mutex);
+    Impl& own = *impl_;
+    const ValueSourceFactory factory = [&own](const Model& model, const BarrierQuery& barriers) {
+        return make_model_source(model, barriers, own.plan);
+    };
+    const ValueSource source = [estimator = own.plain_estimator()](std::span<const ValueQuery> queries) {
+        return estimator->values(queries);
+    };
+    auto verdicts =
+        terratet::verify({own.made->model, own.barriers(), own.tessellation(), own.mesh(), own.cells(), source},
+                         factory, progress, edited, options);
+    if (std::ranges::any_of(verdicts, [](const Verdict& v) { return v.guarantee == "R7" && !v.holds; })) {
+        own.made->tessellation.reset();  // it was refined
+    }
+    return verdicts;
 }
 
 const CollapsedModel& ModelSnapshot::collapsed(Collapsing which, const Progress& progress) const {
     const std::lock_guard lock(impl_->mutex);
     auto& result = impl_->collapsed[which == Collapsing::all ? 0 : 1];
     if (!result) {
-        const CellTable& cells = impl_->cells();
-        result = std::make_unique<CollapsedModel>(
-            collapse_checked(impl_->made->model, impl_->made->mesh, cells, which, progress));
+        static_cast<void>(impl_->cells());
+        static_cast<void>(impl_->barriers());
+        result = std::make_unique<CollapsedModel>(collapse_checked(*impl_->made, which, progress));
     }
     return *result;
 }

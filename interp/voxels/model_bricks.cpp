@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "interp/plan/uncertainty.hpp"
@@ -63,12 +64,14 @@ std::vector<double> vertex_regions(const TetMesh& mesh, const CellTable& cells) 
 struct ModelBricks::Impl {
     const Model& model;
     ModelBrickOptions options;
-    BarrierQuery barriers;
+    std::optional<BarrierQuery> made;
+    const BarrierQuery& barriers;
     std::map<const BarrierQuery*, OwnSide> sides;  ///< what is seen differs where horizons are hard
     std::vector<std::vector<double>> scaled;       ///< [field][vertex]
     std::unique_ptr<CellScan> scan;
 
-    Impl(const Model& m, const ModelBrickOptions& o) : model(m), options(o), barriers(model_proximity(m)) {}
+    Impl(const Model& m, const ModelBrickOptions& o)
+        : model(m), options(o), barriers(o.barriers != nullptr ? *o.barriers : made.emplace(model_proximity(m))) {}
 
     [[nodiscard]] std::size_t extrapolation() const { return model.properties.size(); }
 

@@ -20,6 +20,7 @@ struct ModelBrickOptions {
     /// field there: 2 to 20 µs a voxel and property. Of the model, made with uncertainty if there are properties
     /// without samples (interp/plan/uncertainty.hpp).
     const ModelEstimator* estimator = nullptr;
+    const BarrierQuery* barriers = nullptr;  ///< of the model, and outlive the bricks; null: made for them
     double max_extrapolation = std::numeric_limits<double>::infinity();  ///< no property has values beyond
 };
 

@@ -132,6 +132,7 @@ std::vector<OutputRecord> write_voxels(const ModelView& view, std::span<const Vo
     }
     ModelBrickOptions of_bricks;
     of_bricks.estimator = view.estimator;
+    of_bricks.barriers = view.barriers;
     of_bricks.max_extrapolation = options.max_extrapolation.value_or(of_bricks.max_extrapolation);
     const ModelBricks bricks(view.model, view.mesh, view.cells, lattice_of(view, options), of_bricks);
     return write_voxels(bricks, grid, outputs, options);

@@ -49,7 +49,7 @@ class Clipper {
         for (std::size_t c = 0; c < n; ++c) {
             clip(static_cast<std::uint32_t>(c));
         }
-        keep_to_own_sides(view_.model, points_, result_.cuts);
+        keep_to_own_sides(view_, points_, result_.cuts);
         for (const std::uint32_t parent : result_.parent) {
             result_.changed.push_back(fate_[parent] == Fate::cut ? 1 : 0);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/write/clipped_parts.hpp"
+#include "io/write/view_barriers.hpp"
 #include "tess/mending/mend_cells.hpp"
 
 namespace terratet {
@@ -51,7 +52,8 @@ void take_points(const ModelView& view, const MendableMesh& mended, ClippedMesh&
             parent_at[v] = mesh.parent[c];
         }
     }
-    const OwnSideField field(view.mesh, view.cells.barrier, view.model);
+    const ViewBarriers barriers(view);
+    const OwnSideField field(view.mesh, view.cells.barrier, *barriers);
     const std::size_t first = view.model.vertices.size() + mesh.cuts.size();
     for (std::size_t i = 0; i < mended.points.size(); ++i) {
         if (mended.moved[i] != 0 && parent_at[i] != none) {

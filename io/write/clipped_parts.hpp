@@ -11,7 +11,7 @@ namespace terratet {
 /// Of an edge with a fault across it, as there are some beyond the extent, a cut has the value of the end on its own
 /// side: its t is set to 0 or 1.
 /// \param points of all places
-void keep_to_own_sides(const Model& model, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts);
+void keep_to_own_sides(const ModelView& view, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts);
 
 /// The cells that were cut get better shapes (tess/mending/mend_cells.hpp). Samples and seeds stay where they are, as
 /// do the sheets of faults, but that where a sheet meets the extent its facets may end at other points of it. Points

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/write/clipped_parts.hpp"
+#include "io/write/view_barriers.hpp"
 
 namespace terratet {
 namespace {
@@ -54,8 +55,9 @@ double linear_mix(double a, double b, double t) {
 
 }  // namespace
 
-void keep_to_own_sides(const Model& model, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts) {
-    const BarrierQuery faults = model_proximity(model);
+void keep_to_own_sides(const ModelView& view, std::span<const Vec3> points, std::vector<ClippedMesh::Cut>& cuts) {
+    const Model& model = view.model;
+    const ViewBarriers faults(view);
     ClippedMesh so_far;
     so_far.cuts = std::move(cuts);
     const std::vector<Vertex> vertices = place_vertices(so_far, model);
@@ -67,8 +69,8 @@ void keep_to_own_sides(const Model& model, std::span<const Vec3> points, std::ve
         if (of_one && vertices[a].side == vertices[b].side) {
             continue;  // along a sheet
         }
-        const bool a_hidden = of_one ? t > 0.5 : is_hidden(faults, p, points[a]);
-        const bool b_hidden = of_one ? t <= 0.5 : is_hidden(faults, p, points[b]);
+        const bool a_hidden = of_one ? t > 0.5 : is_hidden(*faults, p, points[a]);
+        const bool b_hidden = of_one ? t <= 0.5 : is_hidden(*faults, p, points[b]);
         if (a_hidden || b_hidden) {
             t = a_hidden && b_hidden ? std::round(t) : a_hidden ? 1 : 0;
         }

@@ -130,9 +130,10 @@ ModelView view_of(const ModelSnapshot& model, const Format& format, const Export
     }
     if (const auto which = collapsing(model.model(), format.name, options)) {
         const CollapsedModel& collapsed = model.collapsed(*which, options.progress);
-        return {collapsed.model, collapsed.mesh, collapsed.cells, estimator};
+        return {collapsed.model, collapsed.mesh, collapsed.cells, estimator,
+                &model.barriers()};  // its faults are the same
     }
-    return {model.model(), model.mesh(), model.cells(), estimator};
+    return {model.model(), model.mesh(), model.cells(), estimator, &model.barriers()};
 }
 
 OutputRecord write_one(const ModelView& view, const Format& format, const std::string& path,

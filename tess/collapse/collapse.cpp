@@ -221,6 +221,11 @@ bool has_bounds(const Model& model) {
 
 CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells, Collapsing which,
                                const Progress& progress) {
+    return collapse_faults(model, mesh, cells, model_proximity(model), which, progress);
+}
+
+CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const CellTable& cells,
+                               const BarrierQuery& barriers, Collapsing which, const Progress& progress) {
     double done = 0;
     const Poll poll = [&] { report_progress(progress, "collapse faults", done); };
     const auto reached = [&](double share) {
@@ -252,7 +257,8 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     if (std::ranges::any_of(cells.barrier, [](std::int32_t barrier) { return barrier >= 0; })) {
         reached(1);
         mend_collapsed(
-            result, exact ? loose_nodes(model, selected, image, split.parts) : std::vector<char>(split.parts.size(), 0),
+            result, barriers,
+            exact ? loose_nodes(model, selected, image, split.parts) : std::vector<char>(split.parts.size(), 0),
             progress);  // else nothing was cut
     }
 
@@ -265,14 +271,13 @@ CollapsedModel collapse_faults(const Model& model, const TetMesh& mesh, const Ce
     report.added_places = image.added_nodes();
     report.split_places = split.split_places;
     report.split_area = split.split_area;
-    const BarrierQuery proximity(model.barriers);
     for (const FaultNode& node : nodes) {
         if (node.is_vertex() || node.state == FaultNode::State::joined || !model.domain.extent.contains(node.base)) {
             continue;
         }
         const std::int32_t barrier = model.vertices[node.seeds[0]].owner;
         const double spacing = model.barriers[static_cast<std::size_t>(barrier)].spacing;
-        if (proximity.distance_to_sheet(barrier, node.base) < 1e-3 * spacing) {
+        if (barriers.distance_to_sheet(barrier, node.base) < 1e-3 * spacing) {
             (node.state == FaultNode::State::apart ? report.apart : report.aside).push_back(node.base);
         }
     }

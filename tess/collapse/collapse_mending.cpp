@@ -67,15 +67,15 @@ MendableMesh cut_mesh(const CollapsedModel& collapsed, std::span<const char> loo
 }
 
 /// \param near of each point, a cell of the mesh before
-void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& near, const Poll& poll,
-                 CollapsedModel& collapsed) {
+void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& near, const BarrierQuery& barriers,
+                 const Poll& poll, CollapsedModel& collapsed) {
     PatientPoll go_on(poll);
     Model& model = collapsed.model;
     std::uint64_t next_id = 0;
     for (const Vertex& vertex : model.vertices) {
         next_id = std::max(next_id, vertex.id + 1);
     }
-    const OwnSideField field(collapsed.mesh, collapsed.cells.barrier, model);
+    const OwnSideField field(collapsed.mesh, collapsed.cells.barrier, barriers);
     const VertexValues before = model.vertex_values;
     for (std::size_t v = 0; v < mended.points.size(); ++v) {
         go_on();
@@ -145,7 +145,8 @@ void take_cells(const std::vector<MendableMesh::Cell>& cells, const std::vector<
 
 }  // namespace
 
-void mend_collapsed(CollapsedModel& collapsed, std::span<const char> loose, const Progress& progress) {
+void mend_collapsed(CollapsedModel& collapsed, const BarrierQuery& barriers, std::span<const char> loose,
+                    const Progress& progress) {
     MendableMesh mended = cut_mesh(collapsed, loose);
     mend_cells(mended, progress);
     const Poll poll = [&] { report_progress(progress, "mend cells", 1); };
@@ -158,7 +159,7 @@ void mend_collapsed(CollapsedModel& collapsed, std::span<const char> loose, cons
             near[v] = std::min(near[v], cell.parent);
         }
     }
-    take_points(mended, near, poll, collapsed);
+    take_points(mended, near, barriers, poll, collapsed);
     poll();
     take_cells(mended.cells, mended.walls, collapsed);
 }

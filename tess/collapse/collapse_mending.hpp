@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "tess/barrier_query.hpp"
 #include "tess/collapsed_model.hpp"
 #include "tess/progress.hpp"
 
@@ -15,6 +16,7 @@ namespace terratet {
 /// node: of exact faults, which stand beside these and hold nothing any more. Other vertices may move, and then have
 /// the linear field's values and new ids, or vanish: nodes that no cell has are left behind. Cells beyond the ground or
 /// the outline and in gaps that are kept stay as they are. O(n log n).
-void mend_collapsed(CollapsedModel& collapsed, std::span<const char> loose, const Progress& progress = {});
+void mend_collapsed(CollapsedModel& collapsed, const BarrierQuery& barriers, std::span<const char> loose,
+                    const Progress& progress = {});
 
 }  // namespace terratet

@@ -10,6 +10,7 @@
 #include "tess/base/tetrahedron.hpp"
 #include "tess/cells.hpp"
 #include "tess/cells/crossing_edges.hpp"
+#include "tess/edit/sweep.hpp"
 #include "tess/edit/verify_tolerance.hpp"
 #include "tess/mesh/quality.hpp"
 #include "tess/model/density_edition.hpp"
@@ -45,29 +46,6 @@ class Offenders {
     std::string list_;
 };
 
-/// Samples' places sorted by x, for distance questions by sweeping.
-class Sweep {
-  public:
-    explicit Sweep(std::vector<Vec3> points) : points_(std::move(points)) { std::ranges::sort(points_); }
-
-    [[nodiscard]] bool contains(const Vec3& p) const { return std::ranges::binary_search(points_, p); }
-
-    /// Does the question hold for a point nearer to p than r? p itself is asked as well when it is one of them.
-    template <class Question>
-    [[nodiscard]] bool any_of(const Vec3& p, double r, const Question& question) const {
-        const Vec3 from{p.x - r, -max_coordinate * 10, -max_coordinate * 10};
-        for (auto q = std::ranges::lower_bound(points_, from); q != points_.end() && q->x <= p.x + r; ++q) {
-            if (squared_distance(*q, p) < r * r && question(*q)) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-  private:
-    std::vector<Vec3> points_;
-};
-
 /// By brute force over all triangles.
 bool in_protection_zone(const Model& model, const std::vector<std::vector<double>>& radii, const Vec3& p) {
     for (std::size_t f = 0; f < model.barriers.size(); ++f) {
@@ -87,17 +65,17 @@ bool in_protection_zone(const Model& model, const std::vector<std::vector<double
 
 class Verifier {
   public:
-    Verifier(const Model& model, const ValueSourceFactory& factory, bool edited, const VerifyOptions& options)
-        : model_(model),
+    Verifier(const VerifiedState& state, const ValueSourceFactory& factory, bool edited, const VerifyOptions& options)
+        : model_(state.model),
           edited_(edited),
           options_(options),
-          proximity_(model_proximity(model)),
+          proximity_(state.barriers),
           factory_(factory),
-          source_(factory ? factory(model, proximity_) : ValueSource()),
-          tessellation_(tessellate(model)),
-          mesh_(tessellation_.mesh()),
-          table_(describe_cells(model, mesh_, proximity_)) {
-        for (const Vertex& vertex : model.vertices) {
+          source_(state.source),
+          tessellation_(state.tessellation),
+          mesh_(state.mesh),
+          table_(state.cells) {
+        for (const Vertex& vertex : model_.vertices) {
             if (vertex.role == Role::sample) {
                 kept_.push_back(vertex.position);
             }
@@ -426,21 +404,31 @@ class Verifier {
     const Model& model_;
     bool edited_;
     VerifyOptions options_;
-    BarrierQuery proximity_;
+    const BarrierQuery& proximity_;
     const ValueSourceFactory& factory_;
-    ValueSource source_;
+    const ValueSource& source_;
     ResolutionField resolution_{model_.criteria, model_.domain, model_.barriers};
-    Tessellation tessellation_;
-    TetMesh mesh_;
-    CellTable table_;
+    Tessellation& tessellation_;
+    const TetMesh& mesh_;
+    const CellTable& table_;
     std::vector<Vec3> kept_;
 };
 
 }  // namespace
 
+std::vector<Verdict> verify(const VerifiedState& state, const ValueSourceFactory& factory, const Progress& progress,
+                            bool edited, const VerifyOptions& options) {
+    return Verifier(state, factory, edited, options).run(progress);
+}
+
 std::vector<Verdict> verify(const Model& model, const ValueSourceFactory& factory, const Progress& progress,
                             bool edited, const VerifyOptions& options) {
-    return Verifier(model, factory, edited, options).run(progress);
+    const BarrierQuery barriers = model_proximity(model);
+    Tessellation tessellation = tessellate(model);
+    const TetMesh mesh = tessellation.mesh();
+    const CellTable cells = describe_cells(model, mesh, barriers);
+    const ValueSource source = factory ? factory(model, barriers) : ValueSource();
+    return verify({model, barriers, tessellation, mesh, cells, source}, factory, progress, edited, options);
 }
 
 }  // namespace terratet

@@ -40,8 +40,8 @@ bool is_hidden(const BarrierQuery& barriers, const Vec3& p, const Vec3& vertex);
 class OwnSideField {
   public:
     /// \param gap of each cell, the fault between whose sheets it is; −1. All outlive this.
-    OwnSideField(const TetMesh& mesh, std::span<const std::int32_t> gap, const Model& model)
-        : mesh_(mesh), gap_(gap), barriers_(model_proximity(model)) {}
+    OwnSideField(const TetMesh& mesh, std::span<const std::int32_t> gap, const BarrierQuery& barriers)
+        : mesh_(mesh), gap_(gap), barriers_(barriers) {}
 
     /// \param cell near p, from which a walk through no gap starts; where it ends at one, the field goes on linearly
     ///             as far as the cell's corners
@@ -53,7 +53,7 @@ class OwnSideField {
 
     const TetMesh& mesh_;
     std::span<const std::int32_t> gap_;
-    BarrierQuery barriers_;
+    const BarrierQuery& barriers_;
 };
 
 }  // namespace terratet

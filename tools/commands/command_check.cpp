@@ -57,11 +57,11 @@ class Check final : public Command {
 
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
-        const Model model = load_model(paths_.front(), {.accept_edited = accept_edited_});
+        const LiveModel live(load_model(paths_.front(), {.accept_edited = accept_edited_}));
         std::vector<Verdict> verdicts;
         {
             ProgressDisplay display(progress_style(progress_, quiet_), stderr);
-            verdicts = verdicts_on(model, paths_.front(), display.callback(), {.all = all_});
+            verdicts = verdicts_on(live, paths_.front(), display.callback(), {.all = all_});
         }
         print(json_ ? as_json(verdicts) : as_lines(verdicts));
         const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds; });

@@ -63,7 +63,7 @@ class Export final : public Command {
             export_grid(input, outputs, exporting_, run_);
             return exit_done;
         }
-        LiveModel live(open_model(input, accept_edited_));
+        LiveModel live = open_model(input, accept_edited_);
         if (exporting_.uncertainty) {
             live.add_uncertainty();
         }

@@ -46,7 +46,8 @@ class Info final : public Command {
         const Source source = parse_source(paths_.front());
         std::string text;
         if (is_model(source.path)) {
-            const Model model = open_model(source.path, accept_edited_);
+            const LiveModel live = open_model(source.path, accept_edited_);
+            const Model& model = live.model();
             text = digest_ ? model_digest(model) + "\n" : rendered(describe_model(model, load_journal(source.path)));
         } else if (digest_) {
             throw InputError(source.path + ": not a Terratet model; --digest is for models");

@@ -53,7 +53,8 @@ class Query final : public Command {
     int run(const std::vector<Given>&) override {
         const ThreadLimit threads(threads_);
         arguments_.words.assign(words_.begin() + 1, words_.end());
-        const ModelSnapshot opened(open_model(words_[0], accept_edited_));
+        const auto state = open_model(words_[0], accept_edited_).snapshot();
+        const ModelSnapshot& opened = *state;
         const bool writes = arguments_.ranks == nullptr || arguments_.ranks->is_root();
         Printed printed;
         std::unique_ptr<RowSink> file;

@@ -35,7 +35,7 @@ class Resample final : public Command {
         exporting_.voxels = true;
         check_outputs(outputs, {input, onto_}, exporting_, run_);
         const ThreadLimit threads(run_.threads);
-        LiveModel live(open_model(input, accept_edited_));
+        LiveModel live = open_model(input, accept_edited_);
         if (exporting_.uncertainty) {
             live.add_uncertainty();
         }

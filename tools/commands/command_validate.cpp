@@ -29,20 +29,6 @@ bool is_fault(const Surface& surface) {
     return surface.kind == SurfaceKind::fault;
 }
 
-/// For estimating no surface need be prepared: it is the barrier. Horizons are where they are hard.
-std::vector<Barrier> as_barriers(const Site& site) {
-    const bool hard = std::ranges::any_of(site.properties, &Property::hard_horizons);
-    std::vector<Barrier> faults;
-    for (const Surface& surface : site.surfaces) {
-        if (is_fault(surface) || (hard && surface.kind == SurfaceKind::horizon)) {
-            Barrier& fault = faults.emplace_back();
-            fault.name = surface.name;
-            fault.sheet = surface;
-        }
-    }
-    return faults;
-}
-
 class Validate final : public Command {
   public:
     Syntax syntax() override {
@@ -85,23 +71,17 @@ class Validate final : public Command {
         start_together(run_.ranks);
         const ThreadLimit threads(run_.threads);
         Diagnostics diagnostics;
-        Model model;
+        std::shared_ptr<const ModelSnapshot> state;
         std::vector<PropertyValidation> all;
         {
             ProgressDisplay display(progress_style(run_.progress, run_.quiet), stderr);
-            model = input(diagnostics, display.callback());
-            if (horizon_) {
-                set_horizons(*horizon_, model);  // of a model, another than it was built with
-            }
-            if (models_.empty()) {
-                model.barriers = as_barriers(model);
-            }
-            const BarrierQuery faults = model_proximity(model);
+            state = input(diagnostics, display.callback()).snapshot();
             CrossValidationOptions options;
             options.max_folds = folds_;
             options.ranks = run_.ranks;
-            all = validate_all(model, faults, specs, options, suggest_, display.callback());
+            all = validate_all(state->model(), state->barriers(), specs, options, suggest_, display.callback());
         }
+        const Model& model = state->model();
         if (all.empty()) {
             throw InputError("no property has a sample: there is nothing to validate");
         }
@@ -119,16 +99,21 @@ class Validate final : public Command {
     }
 
   private:
-    Model input(Diagnostics& diagnostics, const Progress& progress) const {
-        if (!models_.empty()) {
-            return open_model(models_.front(), accept_edited_, progress);
+    [[nodiscard]] LiveModel input(Diagnostics& diagnostics, const Progress& progress) const {
+        if (models_.empty()) {
+            ReadCounts counts;
+            Site site = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
+            composite_as_asked(site, site_, diagnostics);
+            set_horizons(horizon_.value_or(HardHorizons{}), site);
+            return LiveModel::measured(std::move(site));
         }
-        Model model;
-        ReadCounts counts;
-        static_cast<Site&>(model) = read_site(site_inputs(site_, run_.strict), diagnostics, counts, progress);
-        composite_as_asked(model, site_, diagnostics);
-        merge_coincident(model.samples, model.properties);
-        return model;
+        LiveModel stored = open_model(models_.front(), accept_edited_, progress);
+        if (!horizon_) {
+            return stored;
+        }
+        Model model = stored.model();
+        set_horizons(*horizon_, model);  // another than it was built with
+        return LiveModel(std::move(model));
     }
 
     void write_json(const Model& model, const Diagnostics& diagnostics, const std::vector<PropertyValidation>& all) {

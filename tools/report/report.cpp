@@ -155,7 +155,7 @@ Json regions_json(const RunRecord& record) {
     // Of the collapsed mesh: what is in a fault's gap belongs to the two sides.
     const CollapsedModel& collapsed = record.model->collapsed(Collapsing::all);
     const CellTable& cells = collapsed.cells;
-    const auto volumes = region_volumes({collapsed.model, collapsed.mesh, cells});
+    const auto volumes = region_volumes({collapsed.model, collapsed.mesh, cells, nullptr, &record.model->barriers()});
     for (std::size_t region = 0; region < volumes.size(); ++region) {
         list.push_back({{"number", region},
                         {"name", cells.region_name[region]},

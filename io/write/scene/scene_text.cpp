@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "io/base/crs.hpp"
+#include "io/write/view_barriers.hpp"
 #include "tess/fidelity.hpp"
 
 namespace terratet {
@@ -47,7 +48,7 @@ double r_squared(const ModelView& view, std::size_t property) {
     for (const double s : scaled) {
         variance += (s - mean) * (s - mean) / static_cast<double>(scaled.size());
     }
-    const double rms = fidelity(view.model, view.mesh, view.cells.barrier, model_proximity(view.model))[property].rms;
+    const double rms = fidelity(view.model, view.mesh, view.cells.barrier, *ViewBarriers(view))[property].rms;
     return variance > 0 ? 1 - rms * rms / variance : missing;
 }
 

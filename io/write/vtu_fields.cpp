@@ -46,8 +46,7 @@ const char* scale_name(const Property& property) {
 
 }  // namespace
 
-std::vector<VtkStrings> vtu_field_data(const Model& model, const CellTable& cells,
-                                       const std::vector<std::string>& names) {
+std::vector<VtkStrings> property_field_data(const Model& model, const std::vector<std::string>& names) {
     std::vector<VtkStrings> fields{{"CRS", {model.frame.crs_wkt}}, {"LengthUnit", {model.frame.unit}}};
     VtkStrings properties{"Properties", names};
     VtkStrings units{"PropertyUnits", {}};
@@ -62,6 +61,12 @@ std::vector<VtkStrings> vtu_field_data(const Model& model, const CellTable& cell
             fields.push_back({"Classes:" + names[p], model.properties[p].classes});
         }
     }
+    return fields;
+}
+
+std::vector<VtkStrings> vtu_field_data(const Model& model, const CellTable& cells,
+                                       const std::vector<std::string>& names) {
+    std::vector<VtkStrings> fields = property_field_data(model, names);
     VtkStrings faults{"Faults", {}};
     for (const Barrier& fault : model.barriers) {
         faults.values.push_back(fault.name);

@@ -46,7 +46,10 @@ class VertexArrays {
     std::vector<std::int8_t> side_;
 };
 
-/// What makes the arrays understandable without the model: CRS, units, names behind numbers.
+/// What makes the properties' arrays understandable without the model: CRS, units, names behind numbers.
+std::vector<VtkStrings> property_field_data(const Model& model, const std::vector<std::string>& property_names);
+
+/// The same, and of the other arrays: faults, regions, reasons.
 std::vector<VtkStrings> vtu_field_data(const Model& model, const CellTable& cells,
                                        const std::vector<std::string>& property_names);
 

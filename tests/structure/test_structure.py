@@ -15,7 +15,7 @@ FLOORS = {
              "refine", "cells", "mending", "collapse", "voronoi", "edit"],
     "interp": ["base", "ranks", "estimator", "sites", "natural", "kriging", "plan", "voxels", "live"],
     "io": ["base", "read/tables", "read/meshes", "read/surfaces", "read/logs", "read", "read/site", "style", "model", "edit",
-           "voxels", "voxels/tiles", "voxels/grids", "write", "write/scene", "write/tiles"],
+           "voxels", "voxels/tiles", "voxels/grids", "write", "write/scene", "write/tiles", "onto"],
     "tools": ["options", "run", "report", "commands"],
 }
 LONGEST_FILE, LARGEST_ROOM, MEDIAN_FILE, LONGEST_LINE = 450, 4500, 110, 120

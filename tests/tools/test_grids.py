@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Grids in: tables, cubes and OpenVDB into each other and into tiles, and a model's values onto them."""
 import csv
+import json
 import math
 import random
 import subprocess
@@ -144,6 +145,75 @@ for name, far in ("wide", (70000, 70000, 0)), ("endless", (2 * 10**9, 2 * 10**9,
             inside = [p for p in asked if 6791500 <= p[1] <= 6792500 and p[2] <= 10]
             self.assertEqual(sorted(rows), sorted(inside))
         self.fail_with(2, "resample", "m.gpkg", "r.csv", saying="--onto")
+
+    NODES = [(525400, 6791900, -300), (525600, 6791900, -300), (525600, 6792100, -300), (525400, 6792100, -300),
+             (525400, 6791900, -100), (525600, 6791900, -100), (525600, 6792100, -100), (525400, 6792100, -100),
+             (525500, 6792000, -50), (525500, 6792000, 9000)]
+    VTU = """<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="10" NumberOfCells="2"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+{}
+</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3 4 5 6 7 4 5 6 7 8</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">8 13</DataArray><DataArray type="UInt8" Name="types" format="ascii">12 14
+</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>
+"""
+    MSH2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n{}\n$EndNodes\n$Elements\n2\n" \
+           "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 1 1 5 6 7 8 9\n$EndElements\n"
+
+    def test_a_models_values_at_a_meshs_nodes_and_cells_are_those_that_query_gives(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg", "-q")
+        lines = [" ".join(map(str, node)) for node in self.NODES]
+        self.write("g.vtu", self.VTU.format("\n".join(lines)))
+        self.write("g.msh", self.MSH2.format("\n".join(f"{i + 1} {line}" for i, line in enumerate(lines))))
+        centers = [[sum(self.NODES[i][a] for i in cell) / len(cell) for a in range(3)]
+                   for cell in (range(8), range(4, 9))]
+        self.write("p.csv", "x,y,z\n" + "".join(",".join(map(str, p)) + "\n" for p in [*self.NODES, *centers]))
+        asked = list(csv.DictReader(self.succeed("query", "m.gpkg", "value", "p.csv").stdout.splitlines()))
+        for grid in ("g.vtu", "g.msh"):
+            told = self.succeed("resample", "m.gpkg", "--onto", grid, "r.csv", "r.vtu", "--overwrite").stderr
+            self.assertIn("10 nodes, 2 cells; 1 nodes lie beyond the model", told)
+            with open(self.folder / "r.csv", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([(row["of"], row["number"]) for row in rows],
+                             [("node", str(i)) for i in range(10)] + [("cell", "0"), ("cell", "1")])
+            beyond = rows[9], asked[9]  # the extent: a query answers there, a model has nothing
+            self.assertEqual(beyond[0]["K"], "")
+            pairs = [pair for pair in zip(rows, asked) if pair != beyond]
+            self.assertEqual([row["K"] for row, _ in pairs], [row["K"] for _, row in pairs])
+            self.assertEqual([row["extrapolation"] for row, _ in pairs], [row["K_extrapolation"] for _, row in pairs])
+            self.vtk_reads("r.vtu", [float(row["K"] or "nan") for row in rows])
+
+    def vtk_reads(self, name, values):
+        """The mesh is the one that was given, with the values at its points and cells; where VTK is installed."""
+        script = ("import sys, vtk, json; r = vtk.vtkXMLUnstructuredGridReader(); r.SetFileName(sys.argv[1]); r.Update();"
+                  "g = r.GetOutput(); p, c = g.GetPointData().GetArray('K'), g.GetCellData().GetArray('K');"
+                  "print(json.dumps([[g.GetCellType(i) for i in range(g.GetNumberOfCells())],"
+                  "[g.GetPoint(i) for i in range(10)], [p.GetValue(i) for i in range(10)] + [c.GetValue(i) for i in range(2)]]))")
+        if subprocess.run([VDB_PYTHON, "-c", "import vtk"], capture_output=True).returncode != 0:
+            self.skipTest("VTK is not installed")
+        done = subprocess.run([VDB_PYTHON, "-c", script, self.folder / name], capture_output=True, text=True, check=True)
+        types, points, found = json.loads(done.stdout)
+        self.assertEqual(types, [12, 14])
+        self.assertEqual([tuple(p) for p in points], self.NODES)
+        for a, b in zip(found, values):
+            self.assertTrue(a == b or (math.isnan(a) and math.isnan(b)), (a, b))
+
+    def test_meshes_that_gmsh_and_this_program_write_are_read_whole_and_damaged_ones_refused(self):
+        self.succeed("build", *twin_inputs(), "-o", "m.gpkg", "-q")
+        self.succeed("export", "m.gpkg", "o.vtu", "o.msh", "-q")
+        for grid in ("o.vtu", "o.msh"):
+            self.succeed("resample", "m.gpkg", "--onto", grid, "r.csv", "--overwrite", "-q")
+            with open(self.folder / "r.csv", newline="") as file:
+                cells = sum(row["of"] == "cell" for row in csv.DictReader(file))
+            self.assertGreater(cells, 5000)
+        lines = "\n".join(" ".join(map(str, node)) for node in self.NODES)
+        good = self.VTU.format(lines)
+        for bad, saying in ((good.replace("4 5 6 7 8<", "4 5 6 7 10<"), "names node 10, and there are 10"),
+                            (good.replace("8 13", "8 14"), "do not suit"), (good.replace("12 14", "12"), "2 cells have 1 types"),
+                            (good.replace("UnstructuredGrid\"", "ImageData\""), "ImageData"), ("", "not found, or empty")):
+            self.fail_with(3, "resample", "m.gpkg", "--onto", self.write("b.vtu", bad), "q.csv", saying=saying)
+        self.fail_with(3, "resample", "m.gpkg", "--onto", self.write("b.msh", "$MeshFormat\n4.1 1 8\n"), "q.csv", saying="binary")
+        self.fail_with(2, "resample", "m.gpkg", "--onto", self.write("g.vtu", good), "q.nc", saying="becomes .vtu or .csv")
 
     def test_a_grid_in_another_system_is_asked_at_its_own_places(self):
         self.succeed("build", *twin_inputs(), "-o", "m.gpkg")

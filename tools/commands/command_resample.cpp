@@ -18,8 +18,9 @@ class Resample final : public Command {
         append(syntax, {{"Grid",
                          {{{"onto"},
                            "GRID",
-                           "whose places are taken, as voxels' centres: .tif or .nc cube, .vdb, or a regular table "
-                           "with columns x, y, z; in any coordinate system (GRID,srs=EPSG:…)",
+                           "whose places are taken: voxels' centres of a .tif or .nc cube, .vdb, or a regular table "
+                           "with columns x, y, z; nodes and cells of a mesh, .vtu or .msh, which becomes .vtu or "
+                           ".csv; in any coordinate system (GRID,srs=EPSG:…)",
                            &onto_}}},
                         {"Model", {accept_edited_option(accept_edited_)}}});
         append(syntax, run_options(run_));
@@ -54,14 +55,17 @@ class Resample final : public Command {
 }  // namespace
 
 CommandEntry resample_command() {
-    return {"resample",
-            "a model's values at the places of your own grid",
-            "MODEL.gpkg --onto GRID OUTPUT…",
-            "Writes what `query value` says at the centres of a grid's voxels, in a grid's formats.",
-            {"terratet resample site.gpkg --onto heads.nc values.nc",
-             "terratet resample --uncertainty site.gpkg "
-             "--onto blocks.csv estimated.csv"},
-            [] { return std::make_unique<Resample>(); }};
+    return {
+        "resample",
+        "a model's values at the places of your own grid",
+        "MODEL.gpkg --onto GRID OUTPUT…",
+        "Writes what `query value` says at the centres of a grid's voxels, in a grid's formats, or at the nodes and "
+        "the cells' centres of a mesh.",
+        {"terratet resample site.gpkg --onto heads.nc values.nc",
+         "terratet resample site.gpkg --onto feflow.vtu values.vtu",
+         "terratet resample --uncertainty site.gpkg "
+         "--onto blocks.csv estimated.csv"},
+        [] { return std::make_unique<Resample>(); }};
 }
 
 }  // namespace terratet::tools

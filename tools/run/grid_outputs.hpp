@@ -17,7 +17,8 @@ namespace terratet::tools {
 void export_grid(const std::string& input, const std::vector<std::string>& outputs, const ExportArguments& arguments,
                  const RunArguments& run);
 
-/// Writes what `query value` says at the grid's places.
+/// Writes what `query value` says at the grid's places; of a mesh (io/onto/place_mesh.hpp), at its nodes and at its
+/// cells' centres, to .vtu and .csv.
 void resample_onto(const ModelSnapshot& model, const std::string& onto, const std::vector<std::string>& outputs,
                    const ExportArguments& arguments, const RunArguments& run);
 

@@ -190,6 +190,18 @@ std::vector<double> typed(std::string_view type, std::string_view bytes, std::en
     if (type == "UInt32") {
         return numbers<std::uint32_t>(bytes, order);
     }
+    if (type == "UInt8") {
+        return numbers<std::uint8_t>(bytes, order);
+    }
+    if (type == "Int8") {
+        return numbers<std::int8_t>(bytes, order);
+    }
+    if (type == "Int16") {
+        return numbers<std::int16_t>(bytes, order);
+    }
+    if (type == "UInt16") {
+        return numbers<std::uint16_t>(bytes, order);
+    }
     throw InputError("an array of type " + excerpt(type) + " is not known");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/read/site/hole_quality.hpp"
+#include "io/read/log_intervals.hpp"
 
 #include <fmt/format.h>
 
@@ -77,6 +78,9 @@ class Inspector {
                 if (table.stated.hole_names.empty()) {
                     join_ids(table, read.collars, inputs_.columns, said_);
                 }
+                if (tables == &read.logs) {
+                    split_ranges(table, inputs_.columns, said_);
+                }
                 take_stated_depth_unit(table, metric, inputs_, said_);
             }
         }
@@ -87,7 +91,8 @@ class Inspector {
             records_[id] = {id, hole.deepest, {}, {}, 0};
         }
         inspect_surveys(read, holes);
-        for (const Table& log : read.logs) {
+        for (Table& log : read.logs) {
+            complete_bases(log, holes, metric, inputs_, said_);
             inspect_log(log, holes, metric);
         }
         take_rejections();

@@ -10,6 +10,7 @@
 
 #include "io/read/join_ids.hpp"
 #include "io/read/log_checks.hpp"
+#include "io/read/log_intervals.hpp"
 #include "io/read/read_boreholes.hpp"
 #include "io/read/read_positions.hpp"
 #include "io/read/read_samples.hpp"
@@ -377,6 +378,9 @@ Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& co
             }
         }
     }
+    for (Table& log : read.logs) {
+        split_ranges(log, inputs.columns, diagnostics);
+    }
     for (std::vector<Table>* const tables : {&read.surveys, &read.logs}) {
         for (Table& table : *tables) {
             take_stated_depth_unit(table, target, inputs, diagnostics);
@@ -391,6 +395,7 @@ Site read_site(const SiteInputs& given, Diagnostics& diagnostics, ReadCounts& co
         if (log.stated.meanings.empty()) {
             accept_elevations(log, holes, inputs, diagnostics);
         }
+        complete_bases(log, holes, target, inputs, diagnostics);
         note_beyond_length(log, holes, target, inputs, diagnostics);
         read_log(log, holes, target, inputs, catalogue, samples, diagnostics);
     }

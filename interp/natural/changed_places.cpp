@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "interp/base/stamped.hpp"
@@ -86,7 +87,7 @@ class MeshChange final : public ChangedPlaces {
           balls_(sites.tessellation().box(), std::move(balls)),
           uncertain_(std::move(uncertain)),
           box_(bounding_box(exchanged)),
-          exchanged_(exchanged),
+          exchanged_(exchanged.empty() ? std::nullopt : std::make_optional<SiteTree>(exchanged)),
           turns_(std::move(turns)) {}
 
     [[nodiscard]] bool at(const Vec3& place, double way) const override {
@@ -107,10 +108,10 @@ class MeshChange final : public ChangedPlaces {
     /// A changed site, or the way to one by a turn.
     [[nodiscard]] bool is_within(const Vec3& at, double way) const {
         const double squared = way * way;
-        if (squared_distance(at, box_.clamped(at)) <= squared) {
+        if (exchanged_ && squared_distance(at, box_.clamped(at)) <= squared) {
             thread_local std::vector<NearSite> near;
             near.clear();
-            exchanged_.nearest(at, 1, squared, near);
+            exchanged_->nearest(at, 1, squared, near);
             if (!near.empty()) {
                 return true;
             }
@@ -123,7 +124,7 @@ class MeshChange final : public ChangedPlaces {
     BallBins balls_;
     std::vector<std::pair<const CompactDelaunay*, std::int32_t>> uncertain_;
     Box3 box_;
-    SiteTree exchanged_;
+    std::optional<SiteTree> exchanged_;  ///< none: values alone changed
     std::vector<std::pair<Vec3, double>> turns_;
 };
 

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 #include <cmath>
 
 #include "interp/natural/surroundings.hpp"
@@ -107,14 +108,14 @@ std::vector<std::int32_t> Slopes::take_over(const Slopes& before, std::span<cons
     std::vector<std::int32_t> stale;
     std::vector<std::uint32_t> doubtful;  // to be fitted again, and compared
     const Box3 box = bounding_box(touched);
-    const SiteTree tree(touched);
+    const std::optional<SiteTree> tree = touched.empty() ? std::nullopt : std::make_optional<SiteTree>(touched);
     std::vector<NearSite> near;
     const auto is_touched = [&](const Vec3& p, double squared_reach) {
-        if (squared_distance(p, box.clamped(p)) > squared_reach) {
+        if (!tree || squared_distance(p, box.clamped(p)) > squared_reach) {
             return false;
         }
         near.clear();
-        tree.nearest(p, 1, squared_reach, near);
+        tree->nearest(p, 1, squared_reach, near);
         return !near.empty();
     };
     for (std::size_t site = 0; site < before_of.size(); ++site) {

@@ -79,7 +79,12 @@ CompactDelaunay::CompactDelaunay(std::span<const Vec3> sites) {
     assert(!sites.empty());
     points_.assign(sites.begin(), sites.end());
     box_ = bounding_box(sites);
-    const double diagonal = box_.diagonal() > 0 ? box_.diagonal() : 1;
+    // Of sites that differ in their last bits the ghosts still have to stand apart from them.
+    const Vec3 farthest{std::max(std::abs(box_.lo.x), std::abs(box_.hi.x)),
+                        std::max(std::abs(box_.lo.y), std::abs(box_.hi.y)),
+                        std::max(std::abs(box_.lo.z), std::abs(box_.hi.z))};
+    const double rounding = 64 * std::numeric_limits<double>::epsilon() * length(farthest);
+    const double diagonal = box_.diagonal() > 0 ? std::max(box_.diagonal(), rounding) : 1;
     const Vec3 half = ghost_distance * Vec3{diagonal, diagonal, diagonal};
     cube_ = {box_.center() - half, box_.center() + half};
     for (int corner = 0; corner < ghost_count; ++corner) {

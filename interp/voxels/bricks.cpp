@@ -6,6 +6,9 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include "interp/ranks/bytes.hpp"
@@ -20,15 +23,33 @@ struct InFlight {
     std::vector<std::unique_ptr<BrickPiece>> pieces;  ///< one a sink
     std::string message;                              ///< to or from another rank
 };
-using Token = std::shared_ptr<InFlight>;
+using Token = InFlight*;
 using Sinks = std::span<BrickSink* const>;
 
-Token begin_brick(const BrickSource& source, std::size_t number) {
-    auto token = std::make_shared<InFlight>();
-    token->number = number;
-    place_brick(source.lattice(), number, token->brick);
-    return token;
-}
+/// Owns what is in flight: a pipeline that ends by an exception forgets what is in it.
+class Flight {
+  public:
+    explicit Flight(const BrickSource& source) : source_(source) {}
+
+    Token begin(std::size_t number) {
+        auto made = std::make_unique<InFlight>();
+        const Token token = made.get();
+        token->number = number;
+        place_brick(source_.lattice(), number, token->brick);
+        const std::lock_guard lock(mutex_);
+        all_.emplace(number, std::move(made));
+        return token;
+    }
+    void end(Token token) {
+        const std::lock_guard lock(mutex_);
+        all_.erase(token->number);
+    }
+
+  private:
+    const BrickSource& source_;
+    std::mutex mutex_;
+    std::map<std::size_t, std::unique_ptr<InFlight>> all_;  ///< by number
+};
 
 void make_brick(const BrickSource& source, Brick& brick) {
     brick.values.assign(source.fields(), {});
@@ -73,6 +94,7 @@ void unpack(std::size_t fields, Sinks sinks, InFlight& token) {
 /// Another rank's part.
 void send_bricks(const BrickSource& source, Sinks sinks, const Progress& progress, const Ranks& ranks) {
     const std::size_t total = total_bricks(source);
+    Flight flight(source);
     auto next = static_cast<std::size_t>(ranks.rank());
     const auto begin =
         tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Token {
@@ -80,16 +102,17 @@ void send_bricks(const BrickSource& source, Sinks sinks, const Progress& progres
                 control.stop();
                 return nullptr;
             }
-            return begin_brick(source, std::exchange(next, next + static_cast<std::size_t>(ranks.count())));
+            return flight.begin(std::exchange(next, next + static_cast<std::size_t>(ranks.count())));
         });
     const auto make = tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, [&](Token token) {
         make_brick(source, token->brick);
         token->message = packed(token->brick, sinks);
         return token;
     });
-    const auto send = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](const Token& token) {
+    const auto send = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](Token token) {
         ranks.send(std::move(token->message));
         report_progress(progress, "resample", static_cast<double>(token->number + 1) / static_cast<double>(total));
+        flight.end(token);
     });
     tbb::parallel_pipeline(most_in_flight(sinks), begin & make & send);
 }
@@ -97,6 +120,7 @@ void send_bricks(const BrickSource& source, Sinks sinks, const Progress& progres
 void gather_bricks(const BrickSource& source, Sinks sinks, const Progress& progress, const Ranks* ranks) {
     const std::size_t total = total_bricks(source);
     const auto count = static_cast<std::size_t>(ranks == nullptr ? 1 : ranks->count());
+    Flight flight(source);
     std::size_t next = 0;
     const auto begin =
         tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Token {
@@ -104,7 +128,7 @@ void gather_bricks(const BrickSource& source, Sinks sinks, const Progress& progr
                 control.stop();
                 return nullptr;
             }
-            Token token = begin_brick(source, next++);
+            const Token token = flight.begin(next++);
             if (const std::size_t owner = token->number % count; owner != 0) {
                 token->message = ranks->receive(static_cast<int>(owner));
             }
@@ -128,8 +152,9 @@ void gather_bricks(const BrickSource& source, Sinks sinks, const Progress& progr
                     return token;
                 });
     }
-    const auto end = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](const Token& token) {
+    const auto end = tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, [&](Token token) {
         report_progress(progress, "resample", static_cast<double>(token->number + 1) / static_cast<double>(total));
+        flight.end(token);
     });
     tbb::parallel_pipeline(most_in_flight(sinks), chain & end);
 }

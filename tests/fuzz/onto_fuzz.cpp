@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Any bytes as somebody's mesh: refused with an InputError, or nodes, cells and types in step. The first byte chooses the
-// format.
+// Any bytes as somebody's mesh: refused with an InputError, or nodes, cells and types in step. The first byte chooses
+// the format.
 #include <cpl_vsi.h>
 
 #include <cstdint>

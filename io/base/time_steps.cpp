@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 
 #include "io/base/parse_number.hpp"
 #include "tess/base/words.hpp"
@@ -14,13 +15,30 @@ namespace {
 
 constexpr char mark = '@';
 
-/// What follows the mark; empty: no time.
+}  // namespace
+
 std::string time_of(const std::string& name) {
     const std::size_t at = name.rfind(mark);
     return at == std::string::npos || at == 0 ? std::string() : name.substr(at + 1);
 }
 
-}  // namespace
+std::optional<double> days_since_1970(const std::string& label) {
+    int year = 0;
+    unsigned month = 0;
+    unsigned day = 0;
+    const char* const text = label.data();
+    const bool shaped = label.size() >= 10 && label[4] == '-' && label[7] == '-';
+    if (!shaped || std::from_chars(text, text + 4, year).ptr != text + 4 ||
+        std::from_chars(text + 5, text + 7, month).ptr != text + 7 ||
+        std::from_chars(text + 8, text + 10, day).ptr != text + 10) {
+        return {};
+    }
+    const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
+    if (!date.ok()) {
+        return {};
+    }
+    return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
 
 std::string time_label(std::string_view text) {
     if (const auto number = parse_number(text)) {

@@ -5,6 +5,7 @@
 /// Properties over time. One tessellation serves all times: the property P at the time T is a property of its own,
 /// named P@T.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,12 @@ bool time_before(const std::string& a, const std::string& b);
 
 /// P@T.
 std::string name_at(const std::string& property, const std::string& time);
+
+/// The time in a name; empty: none.
+std::string time_of(const std::string& name);
+
+/// Of a label that begins as YYYY-MM-DD; nothing for another.
+std::optional<double> days_since_1970(const std::string& label);
 
 /// The name without its time; as it is where it has none.
 std::string name_without_time(const std::string& name);

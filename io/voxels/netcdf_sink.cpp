@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A netCDF-4 cube by the CF conventions 1.8, as ArcGIS takes voxel layers: regular axes that are dimension variables,
-/// variables over (z, y, x), no auxiliary coordinates, the coordinate system in a grid-mapping variable.
+/// variables over (z, y, x), or over (time, z, y, x) where the model has times, no auxiliary coordinates, the
+/// coordinate system in a grid-mapping variable.
 
 #include <H5public.h>
 #include <netcdf.h>
@@ -10,10 +11,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numeric>
 
 #include "io/base/gdal_scope.hpp"
 #include "io/base/output_file.hpp"
+#include "io/base/parse_number.hpp"
+#include "io/base/time_steps.hpp"
 #include "io/read/column_names.hpp"
 #include "io/voxels/cf_grid_mapping.hpp"
 #include "io/voxels/voxel_sink.hpp"
@@ -24,7 +28,7 @@ namespace {
 
 constexpr float float_fill = -9999;
 constexpr int int_fill = -1;
-constexpr const char* own_variables[] = {"x", "y", "z", "crs"};
+constexpr const char* own_variables[] = {"x", "y", "z", "crs", "time"};
 
 /// A class's name as one word, for flag_meanings.
 std::string word(const std::string& name) {
@@ -86,17 +90,21 @@ class NetcdfSink final : public VoxelSink {
 
     void put(const Brick& brick, std::unique_ptr<BrickPiece> made) override {
         const auto& piece = static_cast<const Piece&>(*made);
-        std::array<std::size_t, 3> start{};
-        std::array<std::size_t, 3> count{};
+        std::array<std::size_t, 4> start{};  // the first for the time
+        std::array<std::size_t, 4> count{1};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            start[axis] = static_cast<std::size_t>(brick.lo[2 - axis]);
-            count[axis] = static_cast<std::size_t>(brick.size[2 - axis]);
+            start[1 + axis] = static_cast<std::size_t>(brick.lo[2 - axis]);
+            count[1 + axis] = static_cast<std::size_t>(brick.size[2 - axis]);
         }
-        for (std::size_t f = 0; f < variables_.size(); ++f) {
+        for (std::size_t f = 0; f < places_.size(); ++f) {
+            const Place& place = places_[f];
+            start[0] = place.step;
+            const std::size_t* const from = &start[place.timed ? 0 : 1];
+            const std::size_t* const many = &count[place.timed ? 0 : 1];
             if (!piece.classes[f].empty()) {
-                check(nc_put_vara_int(id_, variables_[f], start.data(), count.data(), piece.classes[f].data()));
+                check(nc_put_vara_int(id_, place.variable, from, many, piece.classes[f].data()));
             } else if (!piece.numbers[f].empty()) {
-                check(nc_put_vara_float(id_, variables_[f], start.data(), count.data(), piece.numbers[f].data()));
+                check(nc_put_vara_float(id_, place.variable, from, many, piece.numbers[f].data()));
             }
         }
     }
@@ -138,19 +146,20 @@ class NetcdfSink final : public VoxelSink {
         text(NC_GLOBAL, "Conventions", "CF-1.8");
         text(NC_GLOBAL, "title", "Voxels of a Terratet model");
         const auto mapping = cf_grid_mapping(grid_.frame.crs_wkt);
-        const std::array<int, 3> dimensions{axis('z', 2, mapping), axis('y', 1, mapping), axis('x', 0, mapping)};
+        const int time = define_time();
+        const std::array<int, 4> dimensions{time, axis('z', 2, mapping), axis('y', 1, mapping), axis('x', 0, mapping)};
         if (!mapping.empty()) {
             define_mapping(mapping);
         }
-        std::vector<std::string> names;
-        for (const VoxelLayer& layer : grid_.layers) {
-            names.push_back(layer.plain_name);
-        }
-        names = distinct_names(std::move(names), own_variables);
-        for (std::size_t f = 0; f < grid_.layers.size(); ++f) {
-            define_variable(grid_.layers[f], names[f], dimensions, !mapping.empty(), compress);
-        }
+        define_variables(dimensions, !mapping.empty(), compress);
         check(nc_enddef(id_));
+        if (time >= 0) {
+            std::vector<double> clock;
+            for (std::size_t step = 0; step < steps_.size(); ++step) {
+                clock.push_back(clock_of(step));
+            }
+            check(nc_put_var_double(id_, time_, clock.data()));
+        }
         for (int a = 0; a < 3; ++a) {
             std::vector<double> places(static_cast<std::size_t>(grid_.size[static_cast<std::size_t>(a)]));
             for (std::size_t i = 0; i < places.size(); ++i) {
@@ -158,6 +167,73 @@ class NetcdfSink final : public VoxelSink {
                 places[i] = grid_.center(n, n, n)[a];
             }
             check(nc_put_var_double(id_, axes_[static_cast<std::size_t>(a)], places.data()));
+        }
+    }
+
+    /// Days where all steps are dates, else numbers as they are, and steps by their number where some are neither.
+    [[nodiscard]] double clock_of(std::size_t step) const {
+        if (dated_) {
+            return *days_since_1970(steps_[step]);
+        }
+        const bool numbers =
+            std::ranges::all_of(steps_, [](const auto& label) { return parse_number(label).has_value(); });
+        return numbers ? *parse_number(steps_[step]) : static_cast<double>(step);
+    }
+
+    /// Returns the dimension; −1 where nothing changes with time.
+    int define_time() {
+        std::vector<Property> properties;
+        for (const VoxelLayer& layer : grid_.layers) {
+            properties.push_back(layer.property);
+        }
+        steps_ = time_steps(properties);
+        if (steps_.empty()) {
+            return -1;
+        }
+        dated_ = std::ranges::all_of(steps_, [](const auto& label) { return days_since_1970(label).has_value(); });
+        int dimension = 0;
+        check(nc_def_dim(id_, "time", steps_.size(), &dimension));
+        check(nc_def_var(id_, "time", NC_DOUBLE, 1, &dimension, &time_));
+        text(time_, "axis", "T");
+        text(time_, "long_name", "time");
+        if (dated_) {
+            text(time_, "standard_name", "time");
+            text(time_, "units", "days since 1970-01-01 00:00:00");
+            text(time_, "calendar", "standard");
+        }
+        std::string labels;
+        for (const std::string& label : steps_) {
+            labels += (labels.empty() ? "" : ";") + label;
+        }
+        text(time_, "labels", labels);
+        return dimension;
+    }
+
+    /// A variable a layer; one for all times of a property.
+    void define_variables(const std::array<int, 4>& dimensions, bool mapped, bool compress) {
+        std::vector<std::string> names;
+        std::map<std::string, std::size_t> timed;
+        std::vector<std::size_t> name_of;
+        for (const VoxelLayer& layer : grid_.layers) {
+            const std::string base = name_without_time(layer.property.name);
+            const bool has_time = layer.role == VoxelLayer::Role::property && base != layer.property.name;
+            if (!has_time || timed.emplace(base, names.size()).second) {
+                names.push_back(has_time ? plain_name(base) : layer.plain_name);
+            }
+            name_of.push_back(has_time ? timed[base] : names.size() - 1);
+        }
+        names = distinct_names(std::move(names), own_variables);
+        std::vector<int> variables(names.size(), -1);
+        for (std::size_t f = 0; f < grid_.layers.size(); ++f) {
+            const VoxelLayer& layer = grid_.layers[f];
+            const std::string time =
+                layer.role == VoxelLayer::Role::property ? time_of(layer.property.name) : std::string();
+            int& variable = variables[name_of[f]];
+            if (variable < 0) {
+                variable = define_variable(layer, names[name_of[f]], dimensions, !time.empty(), mapped, compress);
+            }
+            const auto step = std::ranges::find(steps_, time) - steps_.begin();
+            places_.push_back({variable, !time.empty(), time.empty() ? 0 : static_cast<std::size_t>(step)});
         }
     }
 
@@ -198,22 +274,22 @@ class NetcdfSink final : public VoxelSink {
         }
     }
 
-    void define_variable(const VoxelLayer& layer, const std::string& name, const std::array<int, 3>& dimensions,
-                         bool mapped, bool compress) {
+    int define_variable(const VoxelLayer& layer, const std::string& name, const std::array<int, 4>& dimensions,
+                        bool timed, bool mapped, bool compress) {
         int variable = 0;
-        check(nc_def_var(id_, name.c_str(), layer.is_class() ? NC_INT : NC_FLOAT, 3, dimensions.data(), &variable));
-        variables_.push_back(variable);
-        std::array<std::size_t, 3> chunk{};
+        check(nc_def_var(id_, name.c_str(), layer.is_class() ? NC_INT : NC_FLOAT, timed ? 4 : 3,
+                         &dimensions[timed ? 0 : 1], &variable));
+        std::array<std::size_t, 4> chunk{1};
         for (std::size_t a = 0; a < 3; ++a) {
-            chunk[a] = static_cast<std::size_t>(std::min<std::int64_t>(Brick::edge, grid_.size[2 - a]));
+            chunk[1 + a] = static_cast<std::size_t>(std::min<std::int64_t>(Brick::edge, grid_.size[2 - a]));
         }
-        check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunk.data()));
+        check(nc_def_var_chunking(id_, variable, NC_CHUNKED, &chunk[timed ? 0 : 1]));
         // A chunk is written whole and once: it need not be kept.
         check(nc_set_var_chunk_cache(id_, variable, 2 * Brick::edge * Brick::edge * Brick::edge * sizeof(float), 3, 1));
         if (compress) {
             check(nc_def_var_deflate(id_, variable, 1, 1, 1));
         }
-        text(variable, "long_name", layer.property.name);
+        text(variable, "long_name", timed ? name_without_time(layer.property.name) : layer.property.name);
         if (layer.is_class()) {
             check(nc_put_att_int(id_, variable, "_FillValue", NC_INT, 1, &int_fill));
             define_classes(layer, variable);
@@ -227,6 +303,7 @@ class NetcdfSink final : public VoxelSink {
         if (mapped) {
             text(variable, "grid_mapping", "crs");
         }
+        return variable;
     }
 
     void define_classes(const VoxelLayer& layer, int variable) {
@@ -249,7 +326,15 @@ class NetcdfSink final : public VoxelSink {
     int id_ = -1;
     bool broken_ = false;
     std::array<int, 3> axes_{};
-    std::vector<int> variables_;
+    int time_ = -1;
+    std::vector<std::string> steps_;  ///< labels; empty: nothing changes with time
+    bool dated_ = false;
+    struct Place {
+        int variable = -1;
+        bool timed = false;
+        std::size_t step = 0;
+    };
+    std::vector<Place> places_;  ///< a layer each
 };
 
 }  // namespace

@@ -17,31 +17,12 @@
 namespace terratet {
 namespace {
 
-/// Days since 1970 of YYYY-MM-DD; nothing for another text.
-std::optional<double> days_of(const std::string& label) {
-    int year = 0;
-    unsigned month = 0;
-    unsigned day = 0;
-    const char* const text = label.data();
-    const bool shaped = label.size() >= 10 && label[4] == '-' && label[7] == '-';
-    if (!shaped || std::from_chars(text, text + 4, year).ptr != text + 4 ||
-        std::from_chars(text + 5, text + 7, month).ptr != text + 7 ||
-        std::from_chars(text + 8, text + 10, day).ptr != text + 10) {
-        return {};
-    }
-    const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
-    if (!date.ok()) {
-        return {};
-    }
-    return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
-}
-
 /// ParaView's clock: numbers as they are, dates in days, other steps by their number.
 double clock_of(const std::string& label, std::size_t step) {
     if (const auto number = parse_number(label)) {
         return *number;
     }
-    return days_of(label).value_or(static_cast<double>(step));
+    return days_since_1970(label).value_or(static_cast<double>(step));
 }
 
 }  // namespace

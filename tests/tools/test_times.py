@@ -5,6 +5,7 @@ import csv
 import json
 import random
 import re
+import subprocess
 import unittest
 
 from terratet import Case
@@ -119,6 +120,44 @@ class Times(Case):
             self.assertIn(b'Name="head"', content)
             self.assertNotIn(b"head@", content)
         self.assertNotEqual(*((self.folder / step[2]).read_bytes() for step in steps))
+
+    def test_netcdf_has_an_axis_of_times_and_is_read_back_by_them(self):
+        times = ["2020-01-01", "2020-01-11", "2021-01-01"]
+        self.samples("s.csv", times)
+        self.build()
+        self.succeed("export", "m.gpkg", "t.nc", "-tr", "50", "-q")
+        script = ("import netCDF4, json, sys, numpy; d = netCDF4.Dataset(sys.argv[1]); t = d['time']; h = d['head'];"
+                  "print(json.dumps([list(h.dimensions), [str(x)[:10] for x in netCDF4.num2date(t[:], t.units, t.calendar)],"
+                  "t.standard_name, t.axis, list(d['extrapolation'].dimensions), [k for k in d.variables if '2020' in k],"
+                  "[[float(h[s, k, j, i]) for s in range(3)] for k, j, i in ((0, 5, 5), (1, 10, 3))],"
+                  "[[float(d['x'][i]), float(d['y'][j]), float(d['z'][k])] for k, j, i in ((0, 5, 5), (1, 10, 3))]]))")
+        python = "/usr/bin/python3"  # Debian's netCDF4
+        if subprocess.run([python, "-c", "import netCDF4"], capture_output=True).returncode != 0:
+            self.skipTest("netCDF4 is not installed")
+        done = subprocess.run([python, "-c", script, self.folder / "t.nc"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        dimensions, dates, standard_name, axis, plain, own, values, centers = json.loads(done.stdout)
+        self.assertEqual(dimensions, ["time", "z", "y", "x"])
+        self.assertEqual((dates, standard_name, axis), (times, "time", "T"))
+        self.assertEqual((plain, own), (["z", "y", "x"], []))
+        for of_times, center in zip(values, centers):
+            for i, value in enumerate(of_times):
+                self.assertAlmostEqual(value, head(center, i), 3)
+        self.succeed("export", "t.nc", "back.csv", "-q")
+        with open(self.folder / "back.csv", newline="") as file:
+            row = next(r for r in csv.DictReader(file) if r["head@2020-01-11"])
+        place = tuple(float(row[a]) for a in "XYZ")
+        for i, time in enumerate(times):
+            self.assertAlmostEqual(float(row["head@" + time]), head(place, i), 3)
+
+    def test_times_that_are_no_dates_are_numbers_of_the_axis(self):
+        self.samples("s.csv", [10, 2, 7.5])
+        self.build()
+        self.succeed("export", "m.gpkg", "t.nc", "-tr", "100", "-q")
+        told = json.loads(subprocess.run(["gdalinfo", "-json", f'NETCDF:"{self.folder / "t.nc"}":head'],
+                                         capture_output=True, text=True, check=True).stdout)
+        self.assertEqual(told["metadata"][""]["NETCDF_DIM_time_VALUES"], "{2,7.5,10}")
+        self.assertEqual(told["metadata"][""]["time#labels"], "2;7.5;10")
 
 
 if __name__ == "__main__":

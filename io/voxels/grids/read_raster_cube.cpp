@@ -19,6 +19,7 @@
 #include "io/base/gdal_drivers.hpp"
 #include "io/base/gdal_scope.hpp"
 #include "io/base/parse_number.hpp"
+#include "io/base/time_steps.hpp"
 #include "io/voxels/grids/grid_source.hpp"
 #include "tess/error.hpp"
 
@@ -74,6 +75,24 @@ std::vector<std::string> words(const std::string& line) {
     return result;
 }
 
+/// "@T" of a slice at the time T of an axis of times, by its label where the axis has those.
+std::string time_mark(GDALDataset& dataset, GDALRasterBand& band) {
+    const auto clock = parse_number(item(band, "NETCDF_DIM_time"));
+    if (!clock) {
+        return "";
+    }
+    std::string all = item(dataset, "NETCDF_DIM_time_VALUES");  // {0,1,2}
+    std::erase_if(all, [](char c) { return c == '{' || c == '}'; });
+    std::istringstream values(all);
+    std::istringstream labels(item(dataset, "time#labels"));
+    for (std::string value, label; std::getline(values, value, ',') && std::getline(labels, label, ';');) {
+        if (parse_number(value) == clock) {
+            return name_at("", label);
+        }
+    }
+    return name_at("", time_label(item(band, "NETCDF_DIM_time")));
+}
+
 VoxelLayer layer_of(GDALDataset& dataset, GDALRasterBand& band, const std::string& name, const std::string& fallback) {
     const std::string variable = item(band, "NETCDF_VARNAME");
     const std::string prefix = variable + "#";
@@ -92,8 +111,9 @@ VoxelLayer layer_of(GDALDataset& dataset, GDALRasterBand& band, const std::strin
     const std::string long_name = item(dataset, prefix + "long_name");
     const std::string shown = !name.empty() ? name : !variable.empty() ? variable : fallback;
     const bool categorical = !classes.empty() || (integer && !variable.empty());
-    return grid_layer(variable.empty() || long_name.empty() ? shown : long_name, unit == "1" ? "" : unit, categorical,
-                      item(dataset, prefix + "scale") == "log10", std::move(classes));
+    const std::string full = (variable.empty() || long_name.empty() ? shown : long_name) + time_mark(dataset, band);
+    return grid_layer(full, unit == "1" ? "" : unit, categorical, item(dataset, prefix + "scale") == "log10",
+                      std::move(classes));
 }
 
 Dataset open_raster(const std::string& path, const Source& source, const GdalScope& scope) {
@@ -114,10 +134,10 @@ void add_bands(GDALDataset& dataset, const Source& source, Cube& cube) {
             throw InputError(source.describe() + ": band " + std::to_string(b) +
                              " does not say its height: a cube's have metadata Z, or `z=…` in their descriptions");
         }
-        const std::string name = item(band, "PROPERTY");
+        const std::string name = item(band, "PROPERTY") + time_mark(dataset, band);
         const auto [found, added] = of_name.emplace(name, cube.variables.size());
         if (added) {
-            cube.variables.push_back({layer_of(dataset, band, name, "value"), {}});
+            cube.variables.push_back({layer_of(dataset, band, item(band, "PROPERTY"), "value"), {}});
         }
         cube.variables[found->second].slices.push_back({*z, &band});
     }

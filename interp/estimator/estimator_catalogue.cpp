@@ -197,7 +197,7 @@ std::string wanted(const EstimatorOption& option) {
         return "one of " + listed(option.words);
     }
     const EstimatorOption any;
-    const std::string noun = option.whole ? "a whole number" : "a number";
+    std::string noun = option.whole ? "a whole number" : "a number";
     if (option.lowest == any.lowest) {
         return noun;
     }

@@ -64,7 +64,7 @@ void SiteTree::add_leaf(std::span<const std::uint32_t> order, std::span<const Ve
         leaf.x[lane] = p.x;
         leaf.y[lane] = p.y;
         leaf.z[lane] = p.z;
-        original_.push_back(is_point ? order[lane] : none);
+        original_.push_back(is_point ? order[lane] : no_index);
         if (!boreholes.empty()) {
             boreholes_.push_back(is_point ? boreholes[order[lane]] : -1);
         }

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "tess/base/no_index.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
@@ -56,7 +57,6 @@ class SiteTree {
 
   private:
     static constexpr std::uint32_t leaf_size = 24;
-    static constexpr std::uint32_t none = 0xffffffff;
 
     struct Node {
         Box3 box;

@@ -4,6 +4,7 @@
 
 #include "io/write/clipped_parts.hpp"
 #include "io/write/view_barriers.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/mending/mend_cells.hpp"
 
 namespace terratet {
@@ -45,8 +46,7 @@ bool on_face(const Box3& box, const Vec3& p) {
 }
 
 void take_points(const ModelView& view, const MendableMesh& mended, ClippedMesh& mesh) {
-    constexpr std::uint32_t none = 0xffffffffU;
-    std::vector<std::uint32_t> parent_at(mended.points.size(), none);
+    std::vector<std::uint32_t> parent_at(mended.points.size(), no_index);
     for (std::size_t c = mesh.cells.size(); c-- > 0;) {
         for (const std::uint32_t v : mesh.cells[c]) {
             parent_at[v] = mesh.parent[c];
@@ -56,7 +56,7 @@ void take_points(const ModelView& view, const MendableMesh& mended, ClippedMesh&
     const OwnSideField field(view.mesh, view.cells.barrier, *barriers);
     const std::size_t first = view.model.vertices.size() + mesh.cuts.size();
     for (std::size_t i = 0; i < mended.points.size(); ++i) {
-        if (mended.moved[i] != 0 && parent_at[i] != none) {
+        if (mended.moved[i] != 0 && parent_at[i] != no_index) {
             mesh.points[i] = mended.points[i];
             mesh.place[i] = static_cast<std::uint32_t>(first + mesh.moved.size());
             mesh.moved.push_back(
@@ -97,8 +97,7 @@ void mend_clipped(const ModelView& view, ClippedMesh& mesh, const Progress& prog
 }
 
 void drop_unused_points(ClippedMesh& mesh) {
-    constexpr std::uint32_t unused = 0xffffffffU;
-    std::vector<std::uint32_t> number(mesh.points.size(), unused);
+    std::vector<std::uint32_t> number(mesh.points.size(), no_index);
     for (const Corners& cell : mesh.cells) {
         for (const std::uint32_t v : cell) {
             number[v] = 0;
@@ -106,7 +105,7 @@ void drop_unused_points(ClippedMesh& mesh) {
     }
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < number.size(); ++i) {
-        if (number[i] != unused) {
+        if (number[i] != no_index) {
             mesh.points[count] = mesh.points[i];
             mesh.place[count] = mesh.place[i];
             number[i] = count++;

@@ -8,13 +8,12 @@
 #include <span>
 
 #include "tess/base/grid.hpp"
+#include "tess/base/no_index.hpp"
 
 namespace terratet {
 
 class SeedGrid {
   public:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
     SeedGrid(std::span<const Vec3> points, double radius) : grid_(radius) {
         for (const Vec3& p : points) {
             insert(p);
@@ -29,7 +28,7 @@ class SeedGrid {
 
     /// The nearest one within the radius, the first of equals; none when none is.
     [[nodiscard]] std::uint32_t nearest(const Vec3& p) const {
-        std::uint32_t best = none;
+        std::uint32_t best = no_index;
         double least = radius() * radius();
         visit(p, [&](std::uint32_t i) {
             const double d = squared_distance(points_[i], p);

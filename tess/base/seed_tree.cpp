@@ -24,12 +24,12 @@ SeedTree::SeedTree(std::span<const Vec3> points)
           [&](std::uint32_t i, int axis) { return points[i][axis]; }) {}
 
 std::uint32_t SeedTree::nearest(const Vec3& p, double radius) const {
-    std::uint32_t best = none;
+    std::uint32_t best = no_index;
     double least = radius * radius;
     const auto wanted = [&](const auto&, double away) { return away <= least; };
     tree_.near_first(p, wanted, [&](std::uint32_t i) {
         const double d = squared_distance(points_[i], p);
-        if (d < least || (d == least && best != none && i < best)) {
+        if (d < least || (d == least && best != no_index && i < best)) {
             least = d;
             best = i;
         }

@@ -9,14 +9,13 @@
 #include <span>
 
 #include "tess/base/box_tree.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/geometry.hpp"
 
 namespace terratet {
 
 class SeedTree {
   public:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
     /// \pre The points outlive this.
     explicit SeedTree(std::span<const Vec3> points);
 

@@ -52,9 +52,9 @@ class CollapseImage::Cutter {
             const auto& [a, b] = edge;
             const Vec3 at = position(a) + met[0].at * (position(b) - position(a));
             const std::uint32_t passed = node_at(edge, at);
-            if (next < most && passed != none && led_through_.insert(edge).second) {
+            if (next < most && passed != no_index && led_through_.insert(edge).second) {
                 cut(edge, passed, met);
-            } else if (next < most && passed == none && stays_positive(edge, at, none)) {
+            } else if (next < most && passed == no_index && stays_positive(edge, at, no_index)) {
                 const std::uint32_t middle = image_.add_node(at, {});
                 on_.emplace_back();
                 cut(edge, middle, met);
@@ -168,7 +168,7 @@ class CollapseImage::Cutter {
                 }
             }
         }
-        return none;
+        return no_index;
     }
 
     void cut(const Edge& edge, std::uint32_t middle, const std::vector<SheetCrossings::Crossing>& met) {
@@ -217,7 +217,7 @@ class CollapseImage::Cutter {
     /// Will all cells round the edge keep a volume when it is cut there? But for those that will be gone: with the node
     /// already, with the edge that is cut in the same place, or with an opposite one that can be.
     [[nodiscard]] bool stays_positive(const Edge& edge, const Vec3& at, std::uint32_t node,
-                                      const Edge& cut_too = {none, none}) const {
+                                      const Edge& cut_too = {no_index, no_index}) const {
         return std::ranges::all_of(image_.star_[edge[0]], [&](std::uint32_t c) {
             const Cell& cell = image_.cells_[c];
             if (image_.degenerate(cell) || !has(cell, edge[1]) || has(cell, node) ||
@@ -225,7 +225,7 @@ class CollapseImage::Cutter {
                 return true;
             }
             const Edge opposite = opposite_edge(cell, edge);
-            if (cut_too[0] == none && runs_through(opposite, at)) {
+            if (cut_too[0] == no_index && runs_through(opposite, at)) {
                 return stays_positive(opposite, at, node, edge);
             }
             return std::ranges::all_of(edge, [&](std::uint32_t replaced) { return keeps_height(cell, replaced, at); });

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/collapse/collapse_fill.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/base/tetrahedron.hpp"
 
 #include <algorithm>
@@ -8,8 +9,6 @@
 
 namespace terratet {
 namespace {
-
-constexpr std::uint32_t none = 0xffffffffU;
 
 using Edge = std::array<std::uint32_t, 2>;
 
@@ -38,7 +37,7 @@ std::vector<std::uint32_t> ring_of(const std::vector<Sector>& sectors) {
 class Filler {
   public:
     Filler(const TetMesh& mesh, std::span<const FaultNode> nodes) : mesh_(mesh), nodes_(nodes) {
-        owner_.assign(mesh.cells.size(), none);
+        owner_.assign(mesh.cells.size(), no_index);
         filling_.replaced.assign(mesh.cells.size(), 0);
     }
 
@@ -65,7 +64,7 @@ class Filler {
                 continue;
             }
             for (const std::uint32_t c : node.cells) {
-                if (node.state == FaultNode::State::joined && owner_[c] == none) {
+                if (node.state == FaultNode::State::joined && owner_[c] == no_index) {
                     owner_[c] = number;
                     filling_.replaced[c] = 1;
                 }
@@ -76,12 +75,12 @@ class Filler {
 
     void join_vertices() {
         for (std::uint32_t c = 0; c < owner_.size(); ++c) {
-            for (std::size_t k = 0; k < 4 && owner_[c] != none; ++k) {
+            for (std::size_t k = 0; k < 4 && owner_[c] != no_index; ++k) {
                 const std::int32_t next = mesh_.neighbours[c][k];
-                const std::uint32_t beyond = next < 0 ? none : owner_[static_cast<std::size_t>(next)];
+                const std::uint32_t beyond = next < 0 ? no_index : owner_[static_cast<std::size_t>(next)];
                 const auto& v = mesh_.cells[c];
                 const Triangle facet{v[facet_corners[k][0]], v[facet_corners[k][1]], v[facet_corners[k][2]]};
-                if (beyond == none) {
+                if (beyond == no_index) {
                     filling_.cells.push_back({{owner_[c], facet[0], facet[1], facet[2]}, c});
                 } else if (owner_[c] < beyond) {
                     shared_[{owner_[c], beyond}].push_back({facet, c});

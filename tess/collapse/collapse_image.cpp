@@ -60,7 +60,7 @@ CollapseImage::CollapseImage(const TetMesh& mesh, std::span<const FaultNode> fau
 }
 
 void CollapseImage::place_nodes() {
-    fault_node_.assign(positions_.size(), none);
+    fault_node_.assign(positions_.size(), no_index);
     for (std::uint32_t v = 0; v < positions_.size(); ++v) {
         node_of_.push_back(v);
     }
@@ -109,7 +109,7 @@ bool CollapseImage::is_flat(const Cell& cell) const {
             return true;
         }
         const std::uint32_t at = fault_node_[corner.node];
-        return at != none && fault_nodes_[at].state != FaultNode::State::aside &&
+        return at != no_index && fault_nodes_[at].state != FaultNode::State::aside &&
                positions_[corner.node] == fault_nodes_[at].base;
     });
     return on_barrier && height(cell) < flat_height * longest_edge(cell);
@@ -226,11 +226,11 @@ bool CollapseImage::moved(const Cell& cell) const {
 
 /// The fault node to retreat for a cell without volume: of those that have given up least the last one.
 std::uint32_t CollapseImage::culprit_of(const Cell& cell) const {
-    std::uint32_t culprit = none;
+    std::uint32_t culprit = no_index;
     for (const Corner& corner : cell.corners) {
         for (const std::uint32_t f : fault_nodes_at(corner.node)) {
             if (fault_nodes_[f].state != FaultNode::State::aside &&
-                (culprit == none || fault_nodes_[f].state < fault_nodes_[culprit].state ||
+                (culprit == no_index || fault_nodes_[f].state < fault_nodes_[culprit].state ||
                  (fault_nodes_[f].state == fault_nodes_[culprit].state && f > culprit))) {
                 culprit = f;
             }
@@ -253,7 +253,7 @@ std::vector<std::uint32_t> CollapseImage::culprits() const {
         if (height(cell) >= least) {
             continue;
         }
-        if (const std::uint32_t culprit = culprit_of(cell); culprit != none) {  // one at a time is often enough
+        if (const std::uint32_t culprit = culprit_of(cell); culprit != no_index) {  // one at a time is often enough
             result.push_back(culprit);
         }
     }
@@ -293,7 +293,7 @@ std::vector<std::uint32_t> CollapseImage::vertices_behind(std::uint32_t origin) 
 std::vector<std::uint32_t> CollapseImage::fault_nodes_at(std::uint32_t node) const {
     std::vector<std::uint32_t> result;
     for (const std::uint32_t v : ends_behind(node, fault_node_.size(), crossed_)) {
-        if (fault_node_[v] != none) {
+        if (fault_node_[v] != no_index) {
             result.push_back(fault_node_[v]);
         }
     }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "tess/base/no_index.hpp"
 #include "tess/collapse/collapse_nodes.hpp"
 #include "tess/progress.hpp"
 
@@ -18,8 +19,6 @@ namespace terratet {
 /// Cells with their corners' images.
 class CollapseImage {
   public:
-    static constexpr std::uint32_t none = 0xffffffffU;
-
     /// Where a corner is (its node) and which value it has there (its origin: a vertex of the model, or a mean).
     struct Corner {
         std::uint32_t node = 0;

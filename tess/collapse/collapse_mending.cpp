@@ -79,7 +79,7 @@ void take_points(const MendableMesh& mended, const std::vector<std::uint32_t>& n
     const VertexValues before = model.vertex_values;
     for (std::size_t v = 0; v < mended.points.size(); ++v) {
         go_on();
-        if (mended.moved[v] == 0 || near[v] == MendableStars::none) {
+        if (mended.moved[v] == 0 || near[v] == no_index) {
             continue;
         }
         const Blend blend = field.at(mended.points[v], near[v]);
@@ -153,7 +153,7 @@ void mend_collapsed(CollapsedModel& collapsed, const BarrierQuery& barriers, std
     poll();
     std::erase_if(mended.cells, [](const MendableMesh::Cell& cell) { return MendableStars::gone(cell); });
     std::ranges::stable_sort(mended.cells, {}, &MendableMesh::Cell::parent);
-    std::vector<std::uint32_t> near(mended.points.size(), MendableStars::none);
+    std::vector<std::uint32_t> near(mended.points.size(), no_index);
     for (const MendableMesh::Cell& cell : mended.cells) {
         for (const std::uint32_t v : cell.corners) {
             near[v] = std::min(near[v], cell.parent);

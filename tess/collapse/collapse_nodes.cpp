@@ -64,7 +64,7 @@ class OwnVertices {
 
     [[nodiscard]] Vec3 of_pair(const Vec3& middle) const {
         const std::uint32_t nearest = vertices_.nearest(middle);
-        if (nearest == SeedGrid::none) {
+        if (nearest == no_index) {
             return middle;
         }
         const Vec3& vertex = vertices_.point(nearest);
@@ -207,7 +207,7 @@ class VertexFinder {
     /// Those between the nearest seeds alone, when these are all at one distance: p is a vertex of the Voronoi diagram.
     [[nodiscard]] std::vector<std::uint32_t> cells_at_one_distance(const Vec3& p) const {
         const std::uint32_t nearest = grid_->nearest(p);
-        if (nearest == SeedGrid::none) {
+        if (nearest == no_index) {
             return {};
         }
         const double most = distance(grid_->point(nearest), p) * (1 + same_distance);

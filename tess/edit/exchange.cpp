@@ -22,7 +22,7 @@ struct Renumbering {
 Renumbering renumbered(const std::vector<Vertex>& vertices, const VertexValues& values,
                        const std::vector<std::uint64_t>& out, const ValuedVertices& in) {
     Renumbering r;
-    r.new_index.assign(vertices.size(), delaunay::none);
+    r.new_index.assign(vertices.size(), no_index);
     const auto add_until = [&](std::uint64_t id) {
         for (std::size_t k = r.fresh.size(); k < in.vertices.size() && in.vertices[k].id < id; ++k) {
             r.fresh.push_back(static_cast<std::uint32_t>(r.next.vertices.size()));
@@ -70,7 +70,7 @@ ValuedVertices exchange(delaunay::Core& core, VertexValues& values, const std::v
     std::vector<VertexHandle> leaving;
     for (const auto handle : triangulation.finite_vertex_handles()) {
         handle->info() = r.new_index[handle->info()];
-        if (handle->info() == delaunay::none) {
+        if (handle->info() == no_index) {
             leaving.push_back(handle);
         }
     }
@@ -80,7 +80,7 @@ ValuedVertices exchange(delaunay::Core& core, VertexValues& values, const std::v
             add_neighbours(triangulation, handle, near);
         }
     }
-    std::erase_if(near, [](VertexHandle handle) { return handle->info() == delaunay::none; });
+    std::erase_if(near, [](VertexHandle handle) { return handle->info() == no_index; });
     for (const auto handle : leaving) {
         triangulation.remove(handle);
     }

@@ -61,7 +61,7 @@ std::uint32_t MendableStars::beyond(std::uint32_t c, std::size_t k) const {
             return other;
         }
     }
-    return none;
+    return no_index;
 }
 
 bool MendableStars::is_wall(std::uint32_t c, std::size_t k) const {
@@ -73,7 +73,7 @@ bool MendableStars::is_kept(std::uint32_t c, std::size_t k) const {
         return true;
     }
     const std::uint32_t other = beyond(c, k);
-    if (other != none) {
+    if (other != no_index) {
         return cell(other).part != cell(c).part;
     }
     const Corners& v = cell(c).corners;

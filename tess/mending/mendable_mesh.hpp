@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "tess/base/no_index.hpp"
 #include "tess/base/tetrahedron.hpp"
 #include "tess/geometry.hpp"
 
@@ -53,8 +54,6 @@ struct MendableMesh {
 /// A mesh with the cells at each point, and what follows from them.
 class MendableStars {
   public:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
     /// The mesh must outlive it, and is changed by apply() and move() alone.
     explicit MendableStars(MendableMesh& mesh);
 

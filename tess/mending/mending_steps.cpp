@@ -304,8 +304,7 @@ class Search {
     void take_out_facet(std::size_t k) {
         const std::uint32_t other = stars_.beyond(cell_, k);
         const Corners& v = stars_.cell(cell_).corners;
-        if (other == MendableStars::none || stars_.cell(other).part != stars_.cell(cell_).part ||
-            stars_.is_wall(cell_, k)) {
+        if (other == no_index || stars_.cell(other).part != stars_.cell(cell_).part || stars_.is_wall(cell_, k)) {
             return;
         }
         const std::array<std::uint32_t, 3> facet{v[facet_corners[k][0]], v[facet_corners[k][1]],
@@ -397,7 +396,7 @@ std::optional<MendingStep> best_shortening(MendableStars& stars, std::uint32_t c
 }
 
 void make(MendableStars& stars, const MendingStep& change) {
-    if (change.mover == MendableStars::none) {
+    if (change.mover == no_index) {
         stars.apply(change.old, change.fresh);
     } else {
         stars.move(change.mover, change.to);

@@ -14,7 +14,7 @@ namespace terratet {
 struct MendingStep {
     std::vector<std::uint32_t> old;
     std::vector<MendableMesh::Cell> fresh;
-    std::uint32_t mover = MendableStars::none;
+    std::uint32_t mover = no_index;
     Vec3 to;
     double by = 0;  ///< what it is chosen by: the higher the better
 };

@@ -11,11 +11,10 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include "tess/base/no_index.hpp"
 #include "tess/tet_mesh.hpp"
 
 namespace terratet::delaunay {
-
-inline constexpr std::uint32_t none = 0xffffffffU;
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Epick>;  // index in the vertex table
@@ -27,7 +26,7 @@ inline constexpr float unknown_radius = std::numeric_limits<float>::quiet_NaN();
 struct CellInfo {
     std::array<float, 3> center{};  ///< ConflictSearch's cached circumsphere
     float squared_radius = unknown_radius;
-    std::uint32_t tag = none;  ///< a slot or number
+    std::uint32_t tag = no_index;  ///< a slot or number
 };
 
 using CellBase =

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "tess/base/poll.hpp"
 #include "tess/mesh/bulk_insertion.hpp"
 #include "tess/mesh/delaunay.hpp"
-#include "tess/base/poll.hpp"
 
 namespace terratet {
 
@@ -95,7 +95,7 @@ TetMesh Tessellation::mesh() const {
     cells.reserve(triangulation.number_of_cells());
     for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
         if (triangulation.is_infinite(cell)) {
-            cell->info().tag = delaunay::none;
+            cell->info().tag = no_index;
         } else {
             cells.push_back(canonical(cell));
         }

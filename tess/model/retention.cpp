@@ -56,7 +56,7 @@ class LooseField {
             }
         }
         const std::uint32_t i = nearest_->nearest(p, std::numeric_limits<double>::infinity());
-        return i == SeedTree::none ? missing : measured[kept_[i]];
+        return i == no_index ? missing : measured[kept_[i]];
     }
 
   private:

@@ -55,7 +55,7 @@ class CellQueue {
         const std::uint32_t slot = tag & ~mark_bit;
         if ((tag & mark_bit) == mark_ && slot < cells_.size() && cells_[slot].first == cell) {
             cells_[slot].first = delaunay::Cell();
-            cell->info().tag = delaunay::none;
+            cell->info().tag = no_index;
             --waiting_;
         }
     }
@@ -70,7 +70,7 @@ class CellQueue {
                 free_.push_back(slot);
                 const auto [cell, violation] = std::exchange(cells_[slot], {delaunay::Cell(), 0.0});
                 if (cell != delaunay::Cell()) {
-                    cell->info().tag = delaunay::none;
+                    cell->info().tag = no_index;
                     --waiting_;
                     return Entry{cell, violation, slot};
                 }

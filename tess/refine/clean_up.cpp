@@ -21,7 +21,7 @@ constexpr int candidate_count = 12;
 constexpr int candidate_count_thorough = 48;
 constexpr std::size_t few_patients = 32;  ///< a thorough sweep takes some 30 ms for each
 constexpr int severity_steps = 1000;
-constexpr std::uint32_t in_hole = delaunay::none - 1;  ///< a tag that nobody else gives
+constexpr std::uint32_t in_hole = no_index - 1;  ///< a tag that nobody else gives
 
 int steps_below(double value, double limit) {
     return limit > 0 && value < limit ? 1 + static_cast<int>((severity_steps - 1) * (1 - std::max(0.0, value) / limit))
@@ -369,14 +369,14 @@ bool CleanUp::try_place(std::uint32_t vertex, const Vec3& place, const State& st
     }
     for (const Cell cell : zone_.cells) {
         if (cell->info().tag == in_hole) {
-            cell->info().tag = delaunay::none;
+            cell->info().tag = no_index;
         } else if (!triangulation.is_infinite(cell)) {
             add(judged(cell), before);
         }
     }
     for (const Cell cell : hole_) {
         if (cell->info().tag == in_hole) {
-            cell->info().tag = delaunay::none;
+            cell->info().tag = no_index;
             add(judged(cell), after);
         }
     }

@@ -75,12 +75,12 @@ void LiveVertices::drop(const std::vector<std::uint32_t>& removed) {
     }
     std::vector<std::uint32_t> new_index(size(), 0);
     for (const std::uint32_t vertex : removed) {
-        new_index[vertex] = delaunay::none;
+        new_index[vertex] = no_index;
     }
     const auto compact = [&](auto& column) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < column.size(); ++i) {
-            if (new_index[i] != delaunay::none) {
+            if (new_index[i] != no_index) {
                 column[kept++] = column[i];
             }
         }
@@ -93,7 +93,7 @@ void LiveVertices::drop(const std::vector<std::uint32_t>& removed) {
     compact(core_.vertices);
     std::uint32_t next = 0;
     for (std::uint32_t& index : new_index) {
-        index = index == delaunay::none ? delaunay::none : next++;
+        index = index == no_index ? no_index : next++;
     }
     for (const auto vertex : core_.triangulation.finite_vertex_handles()) {
         vertex->info() = new_index[vertex->info()];

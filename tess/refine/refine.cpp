@@ -144,7 +144,7 @@ class Refiner {
         }
         std::vector<Cell> cells;
         for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell) {
-            cell->info().tag = delaunay::none;
+            cell->info().tag = no_index;
             if (!triangulation.is_infinite(cell)) {
                 cells.push_back(cell);
             }

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "tess/base/no_index.hpp"
 #include "tess/base/poll.hpp"
 
 namespace terratet {
@@ -166,8 +167,7 @@ VoronoiComplex clipped_to(VoronoiComplex complex, const Box3& box, const Poll& p
 }
 
 void drop_unused_points(VoronoiComplex& complex) {
-    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place(complex.points.size(), unused);
+    std::vector<std::uint32_t> place(complex.points.size(), no_index);
     for (const VoronoiWall& wall : complex.walls) {
         for (const std::uint32_t corner : complex.polygon(wall)) {
             place[corner] = 0;
@@ -175,7 +175,7 @@ void drop_unused_points(VoronoiComplex& complex) {
     }
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < place.size(); ++i) {
-        if (place[i] != unused) {
+        if (place[i] != no_index) {
             complex.points[count] = complex.points[i];
             place[i] = count++;
         }

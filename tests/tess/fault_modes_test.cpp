@@ -226,7 +226,7 @@ TEST_CASE("Nearly all triangles of made-up faults are certified away from juncti
         std::size_t uncertified = 0;
         std::size_t clear = 0;
         sample_sheets(preparation, 5000, 11, [&](std::size_t, const Vec3& x, const Vec3&, bool is_certified) {
-            if (grid.nearest(x) == SeedGrid::none) {
+            if (grid.nearest(x) == no_index) {
                 ++clear;
                 uncertified += is_certified ? 0 : 1;
             }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "io/base/text_lines.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/error.hpp"
 #include "tess/samples.hpp"
 
@@ -86,14 +87,13 @@ void MeshBuilder::object(const std::string& name) {
 }
 
 std::vector<Surface> MeshBuilder::finish(const std::string& what) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<Surface> surfaces;
-    std::vector<std::uint32_t> place(vertices_.size(), none);
+    std::vector<std::uint32_t> place(vertices_.size(), no_index);
     for (Object& object : objects_) {
         if (object.triangles.empty()) {
             continue;
         }
-        std::ranges::fill(place, none);
+        std::ranges::fill(place, no_index);
         for (const Triangle& t : object.triangles) {
             for (const std::uint32_t corner : t) {
                 place[corner] = 0;
@@ -101,7 +101,7 @@ std::vector<Surface> MeshBuilder::finish(const std::string& what) {
         }
         Surface surface{object.name, kind_, {}, std::move(object.triangles), to_utf8(file_)};
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
-            if (place[i] != none) {
+            if (place[i] != no_index) {
                 place[i] = static_cast<std::uint32_t>(surface.vertices.size());
                 surface.vertices.push_back(vertices_[i]);
             }

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tess/base/no_index.hpp"
+
 namespace terratet {
 
 using VertexId = std::uint64_t;
@@ -26,13 +28,13 @@ class VertexIds {
             return;
         }
         if (id >= dense_.size()) {
-            dense_.resize(id + 1, none);
+            dense_.resize(id + 1, no_index);
         }
         dense_[id] = index;
     }
 
     [[nodiscard]] std::optional<std::uint32_t> find(VertexId id) const {
-        if (id < dense_.size() && dense_[id] != none) {
+        if (id < dense_.size() && dense_[id] != no_index) {
             return dense_[id];
         }
         const auto found = sparse_.find(id);
@@ -40,7 +42,6 @@ class VertexIds {
     }
 
   private:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> dense_;
     std::map<VertexId, std::uint32_t> sparse_;
     std::size_t count_ = 0;

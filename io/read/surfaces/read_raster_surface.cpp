@@ -10,6 +10,7 @@
 #include "io/base/gdal_dataset.hpp"
 #include "io/base/gdal_drivers.hpp"
 #include "io/read/surfaces/read_surfaces.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/error.hpp"
 
 namespace terratet {
@@ -70,7 +71,6 @@ Surface triangulated(const Heights& heights, const std::array<double, 6>& transf
     const auto pixel = [](int k, int count, int extent) {
         return std::clamp((k + 0.5) / count, 0.0, 1.0) * static_cast<double>(extent);
     };
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> above;
     for (int row = -1; row <= heights.rows; ++row) {
         std::vector<std::uint32_t> line;
@@ -78,7 +78,7 @@ Surface triangulated(const Heights& heights, const std::array<double, 6>& transf
         for (int column = -1; column <= heights.columns; ++column) {
             const double x = pixel(column, heights.columns, width);
             const double z = height(heights, column, row);
-            line.push_back(std::isnan(z) ? none : static_cast<std::uint32_t>(surface.vertices.size()));
+            line.push_back(std::isnan(z) ? no_index : static_cast<std::uint32_t>(surface.vertices.size()));
             if (!std::isnan(z)) {
                 surface.vertices.push_back({transform[0] + x * transform[1] + y * transform[2],
                                             transform[3] + x * transform[4] + y * transform[5], z});
@@ -87,7 +87,7 @@ Surface triangulated(const Heights& heights, const std::array<double, 6>& transf
         for (std::size_t k = 1; !above.empty() && k < line.size(); ++k) {
             for (const Triangle& t :
                  {Triangle{above[k - 1], line[k - 1], line[k]}, {above[k - 1], line[k], above[k]}}) {
-                if (std::ranges::find(t, none) == t.end()) {
+                if (std::ranges::find(t, no_index) == t.end()) {
                     surface.triangles.push_back(t);
                 }
             }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write/scene/scene_cells.hpp"
+#include "tess/base/no_index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -149,12 +150,11 @@ std::vector<double> CutTriangles::extrapolation(const SceneCells& cells) const {
 }
 
 void CutTriangles::drop_unused_places() {
-    constexpr auto unseen = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> index(places.size(), unseen);
+    std::vector<std::uint32_t> index(places.size(), no_index);
     std::vector<CellPlace> kept;
     for (Triangle& triangle : triangles) {
         for (std::uint32_t& corner : triangle) {
-            if (index[corner] == unseen) {
+            if (index[corner] == no_index) {
                 index[corner] = static_cast<std::uint32_t>(kept.size());
                 kept.push_back(places[corner]);
             }

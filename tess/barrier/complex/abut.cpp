@@ -1,22 +1,17 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <map>
 #include <set>
 
 #include "tess/barrier/complex/cut_sheets.hpp"
+#include "tess/barrier/complex/triangle_aabb.hpp"
 
 namespace terratet {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using triangle_aabb::Kernel;
+using triangle_aabb::Tree;
+using triangle_aabb::Triangles;
 
 constexpr double grazing = 0.34;     ///< sine of 20°
 constexpr double overshoot = 0.3;    ///< of the tolerance, beyond the other sheet

@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tess/barrier/complex/measure_sheet.hpp"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "tess/barrier/complex/triangle_aabb.hpp"
+
 namespace terratet {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using triangle_aabb::Kernel;
+using triangle_aabb::Tree;
+using triangle_aabb::Triangles;
 
 /// A mesh to measure distances from. Not movable: the tree points into the triangles.
 class Measured {

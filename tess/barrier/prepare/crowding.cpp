@@ -82,7 +82,7 @@ std::vector<FinerPlace> crowded_places(const SheetComplex& complex, const std::v
             }
             const Seed& seed = seeds[surface][k];
             const std::uint32_t junction = junctions.nearest(seed.position);
-            if (junction != SeedGrid::none &&
+            if (junction != no_index &&
                 distance(junctions.point(junction), seed.position) < junction_zone * sizes.at(seed.position)) {
                 continue;
             }

@@ -55,9 +55,8 @@ class PairWidths {
     /// The nearest, if its middle is so near.
     [[nodiscard]] std::optional<OwnPair> at(const Vec3& p, double within) const {
         const std::uint32_t nearest = grid_.nearest(p);
-        const double away = nearest != SeedGrid::none ? distance(grid_.point(nearest), p) : 0;
-        return nearest != SeedGrid::none && away <= within ? std::optional(OwnPair{half_[nearest], away})
-                                                           : std::nullopt;
+        const double away = nearest != no_index ? distance(grid_.point(nearest), p) : 0;
+        return nearest != no_index && away <= within ? std::optional(OwnPair{half_[nearest], away}) : std::nullopt;
     }
 
   private:
@@ -120,7 +119,7 @@ std::vector<double> protection_radii(std::span<const Barrier> barriers, std::siz
         const SeedGrid grid(others, near);
         for (const auto& [t, middle] : smaller) {
             const std::uint32_t nearest = grid.nearest(middle);
-            if (nearest != SeedGrid::none && distance(grid.point(nearest), middle) < near) {
+            if (nearest != no_index && distance(grid.point(nearest), middle) < near) {
                 radii[t] = own.protection_radius;
             }
         }

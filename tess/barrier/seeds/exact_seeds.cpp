@@ -131,7 +131,7 @@ class ExactSeeds {
         std::vector<char> clear(complex_.points.size(), 1);
         for (std::size_t v = 0; v < clear.size(); ++v) {
             const std::uint32_t nearest = seeds.nearest(complex_.points[v], 1.1 * task_.sizes.spacing());
-            if (nearest != SeedTree::none &&
+            if (nearest != no_index &&
                 distance(seeds.point(nearest), complex_.points[v]) < radius_[v] * (1 - ball_tolerance)) {
                 clear[v] = 0;
             }

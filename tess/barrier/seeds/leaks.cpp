@@ -81,7 +81,7 @@ struct LeakFinder::Impl {
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 p{(corner & 1) != 0 ? hull.hi.x : hull.lo.x, (corner & 2) != 0 ? hull.hi.y : hull.lo.y,
                          (corner & 4) != 0 ? hull.hi.z : hull.lo.z};
-            sites.push_back({p, {}, {}, nobody, nobody, true});
+            sites.push_back({p, {}, {}, no_index, no_index, true});
         }
         for (std::uint32_t i = 0; i < sites.size(); ++i) {
             points.emplace_back(to_cgal(sites[i].position), i);
@@ -133,7 +133,7 @@ struct LeakFinder::Impl {
             for (int i = 0; i < 4; ++i) {
                 for (int j = i + 1; j < 4; ++j) {
                     const auto [a, b] = std::minmax(cell->vertex(i)->info(), cell->vertex(j)->info());
-                    if (sites[a].owner != sites[b].owner && sites[a].owner != nobody && sites[b].owner != nobody) {
+                    if (sites[a].owner != sites[b].owner && sites[a].owner != no_index && sites[b].owner != no_index) {
                         edges.push_back({a, b});
                     }
                 }
@@ -187,7 +187,7 @@ struct LeakFinder::Impl {
         std::vector<SheetPlane> planes;
         double widest = -1;
         for (const std::uint32_t i : v) {
-            if (sites[i].owner == nobody) {
+            if (sites[i].owner == no_index) {
                 continue;
             }
             if (const double protection = barriers[sites[i].owner].protection_radius; protection > widest) {
@@ -206,7 +206,7 @@ struct LeakFinder::Impl {
             const Site& site = sites[i];
             const double height = dot(ball.center - site.base, site.normal);
             const double side = i == site.first ? 1 : -1;
-            return site.owner == nobody ||
+            return site.owner == no_index ||
                    (around[i / 2].plain &&
                     ball.radius - side * height < shallow * barriers[site.owner].protection_radius);
         });
@@ -226,7 +226,7 @@ struct LeakFinder::Impl {
                 for (const std::uint32_t i : v) {
                     const Vec3& from = sites[i].position;
                     const double way = just_beyond * plane.protection - dot(from - plane.base, out);
-                    if (sites[i].owner != nobody && leads_to(from + way * out, planes, cell, v, leak)) {
+                    if (sites[i].owner != no_index && leads_to(from + way * out, planes, cell, v, leak)) {
                         return true;
                     }
                 }
@@ -251,7 +251,7 @@ struct LeakFinder::Impl {
         Corners behind{};
         std::size_t count = 0;
         for (const std::uint32_t i : v) {
-            if (sites[i].owner != nobody && std::ranges::any_of(planes, [&](const SheetPlane& plane) {
+            if (sites[i].owner != no_index && std::ranges::any_of(planes, [&](const SheetPlane& plane) {
                     return is_behind(sites[i].position, plane);
                 })) {
                 behind[count++] = i;
@@ -296,7 +296,7 @@ struct LeakFinder::Impl {
             const Vec3& from = sites[i].position;
             const double height = dot(probe.place - from, probe.out);
             const double below = (1 - same_height) * barriers[probe.barrier].protection_radius;  // or hardly above
-            if (sites[i].owner == nobody || (!pushed && height <= below)) {
+            if (sites[i].owner == no_index || (!pushed && height <= below)) {
                 continue;
             }
             const std::uint32_t first = pushed ? 0 : probe.barrier;
@@ -341,7 +341,7 @@ struct LeakFinder::Impl {
                 }
             }
             for (const std::uint32_t i : v) {
-                if (sites[i].owner != nobody && describe(i, near.barrier, place + half, cell, leak)) {
+                if (sites[i].owner != no_index && describe(i, near.barrier, place + half, cell, leak)) {
                     leak.place = place;
                     return true;
                 }

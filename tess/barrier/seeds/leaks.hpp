@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "tess/barrier.hpp"
+#include "tess/base/no_index.hpp"
 #include "tess/base/poll.hpp"
 
 namespace terratet {
@@ -65,7 +66,6 @@ class LeakFinder {
 
     /// Those of the faults, in their order, and of pairs added; then the hull box's corners, without an owner.
     [[nodiscard]] const std::vector<Site>& sites() const;
-    static constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
     /// Other vertices keep out of the ball of the fault's protection radius round the centre as well.
     void protect(std::uint32_t barrier, const Vec3& center);

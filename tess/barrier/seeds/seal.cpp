@@ -220,7 +220,7 @@ class Sealer {
             std::array<SliverCorner, 4> corners;
             for (std::size_t i = 0; i < 4; ++i) {
                 const LeakFinder::Site& site = finder_.sites()[cell[i]];
-                if (site.owner == LeakFinder::nobody) {
+                if (site.owner == no_index) {
                     return false;
                 }
                 corners[i] = {site.position, site.owner, cell[i] == site.first};
@@ -233,7 +233,7 @@ class Sealer {
         seal_.seeds.resize(barriers_.size());
         for (std::uint32_t i = 0; i < finder_.sites().size(); ++i) {
             const LeakFinder::Site& site = finder_.sites()[i];
-            if (site.owner != LeakFinder::nobody && site.present) {
+            if (site.owner != no_index && site.present) {
                 seal_.seeds[site.owner].push_back({site.position, static_cast<std::int8_t>(i == site.first ? 1 : -1)});
             }
         }

@@ -128,7 +128,7 @@ void SeedCollector::test_separation(SeededComplex& result) const {
             for (const double side : {1.0, -1.0}) {
                 const Vec3 place = inner + side * away * normal;
                 const std::uint32_t nearest = seeds.nearest(place, reach);
-                if (nearest == SeedTree::none || task_.wall.between(place, seeds.point(nearest))) {
+                if (nearest == no_index || task_.wall.between(place, seeds.point(nearest))) {
                     result.separated[t] = 0;
                 }
             }

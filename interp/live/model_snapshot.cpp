@@ -241,7 +241,7 @@ std::vector<std::uint32_t> ModelSnapshot::neighbours_of(const std::string& boreh
         }
     }
     std::ranges::sort(neighbours);
-    neighbours.erase(std::ranges::unique(neighbours).begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     return neighbours;
 }
 

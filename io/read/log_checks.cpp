@@ -233,6 +233,7 @@ void note_beyond_length(const Table& log, const Holes& holes, const Crs& target,
         return;
     }
     std::vector<double> shares;
+    shares.reserve(deepest.size());
     for (const auto& [id, of_length] : deepest) {
         shares.push_back(of_length);
     }

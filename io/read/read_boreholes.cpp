@@ -302,6 +302,7 @@ void read_survey(const Table& table, const Collars& collars, const Crs& target, 
 
 std::vector<SurveyStation> stations_of(const std::map<double, SurveyStation>& survey) {
     std::vector<SurveyStation> stations;
+    stations.reserve(survey.size());
     for (const auto& [depth, station] : survey) {
         stations.push_back(station);
     }

@@ -34,6 +34,7 @@ inside 'terratet --version
 cp -r "$source/tests/install" "$work/debian/site/project"
 inside 'apt-get install -y -qq --no-install-recommends ./libterratet-dev_*.deb g++ cmake ninja-build >/dev/null
   cmake -S project -B built -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null; cmake --build built >/dev/null
-  printf "x,y,z,v\n0,0,0,1\n10,0,0,2\n0,10,0,3\n0,0,10,4\n10,10,10,5\n" > samples.csv
-  built/first_model samples.csv first.vtu; test -s first.vtu'
+  sed s/^OT-01,/B12,/ collar.csv > renamed_collar.csv; sed s/^OT-01,/B12,/ log.csv > renamed_log.csv
+  built/first_model renamed_collar.csv renamed_log.csv first.vtu; test -s first.vtu
+  built/without_fault model.gpkg fracture healed.vtu; test -s healed.vtu'
 echo "the packages install and work on a bare Debian"

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "io/base/crs.hpp"
 #include "io/base/file_bytes.hpp"
@@ -248,6 +250,33 @@ std::optional<SeenOutput> see_raster(const std::string& path) {
     return seen;
 }
 
+/// PFLOTRAN's explicit grid, "CELLS n", or its implicit one: how many cells and vertices, then a cell a line, its kind
+/// first.
+std::optional<SeenOutput> see_pflotran(const std::string& head) {
+    std::istringstream text(head);
+    std::string first;
+    std::string second;
+    std::string kind;
+    text >> first >> second;
+    const auto is_count = [](const std::string& word) {
+        return !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
+    };
+    if (first == "CELLS" && is_count(second)) {
+        SeenOutput seen;
+        seen.format = "PFLOTRAN explicit unstructured grid";
+        seen.facts = {{"cells", second}};
+        return seen;
+    }
+    if (is_count(first) && is_count(second) && text >> kind &&
+        (kind == "T" || kind == "H" || kind == "W" || kind == "P")) {
+        SeenOutput seen;
+        seen.format = "PFLOTRAN implicit unstructured grid";
+        seen.facts = {{"cells", first}, {"vertices", second}};
+        return seen;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SeenOutput> see_output(const std::string& path) {
@@ -284,6 +313,9 @@ std::optional<SeenOutput> see_output(const std::string& path) {
         SeenOutput seen = plain("Gmsh mesh");
         const std::size_t line = head.find('\n') + 1;
         seen.format = "Gmsh mesh " + head.substr(line, head.find_first_of(" \n", line) - line);
+        return seen;
+    }
+    if (auto seen = see_pflotran(head)) {
         return seen;
     }
     if (start.find("<html") != std::string_view::npos || start.starts_with("<!DOCTYPE html") ||

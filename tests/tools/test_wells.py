@@ -382,11 +382,17 @@ class Info(Case):
     def test_each_output_is_named_with_its_extent(self):
         self.write("s.csv", "x,y,z,v\n" + "".join(f"{x},{y},{z},{x}\n" for x in (0, 50, 100) for y in (0, 50, 100) for z in (0, 50, 100)))
         self.succeed("convert", "--samples", "s.csv", "-s_srs", "EPSG:32633", "-te", "0", "0", "0", "100", "100", "100", "--lmin", "20",
-                     "m.gpkg", "m.vtu", "m.glb", "m.gltf", "m.vdb", "-tr", "10")
-        for name, words in (("m.vtu", "UnstructuredGrid"), ("m.glb", "glTF 2.0 binary"), ("m.gltf", "glTF 2.0"), ("m.vdb", "OpenVDB")):
+                     "m.gpkg", "m.vtu", "m.glb", "m.gltf", "m.vdb", "e.uge", "i.ugi", "m.msh", "m.html", "m.png", "m.vtm", "m.pvd",
+                     "m.nc", "m.tif", "t.json,of=VOXELTILES", "-tr", "10")
+        for name, words in (("m.vtu", "UnstructuredGrid"), ("m.glb", "glTF 2.0 binary"), ("m.gltf", "glTF 2.0"), ("m.vdb", "OpenVDB"),
+                            ("e.uge", "PFLOTRAN explicit"), ("i.ugi", "PFLOTRAN implicit"), ("m.msh", "Gmsh mesh 4.1"),
+                            ("m.html", "HTML page"), ("m.png", "PNG"), ("m.vtm", "MultiBlock"), ("m.pvd", "Collection"),
+                            ("m.nc", "netCDF"), ("m.tif", "GTiff"), ("t.json", "3D Tiles")):
             seen = json.loads(self.succeed("info", "--json", name).stdout)
             self.assertEqual(seen["kind"], "output")
             self.assertIn(words, seen["format"])
+        for pair in (("q.uge", "q.ugi"), ("q.vtm", "q.json,of=VOXELTILES")):  # one would write over the other's files
+            self.fail_with(2, "export", "m.gpkg", *pair, "-tr", "10", saying="both put files into the folder q")
         seen = json.loads(self.succeed("info", "--json", "m.glb").stdout)
         self.assertIn("32633", seen["crs"])
         lo, hi = seen["extent"][:3], seen["extent"][3:]

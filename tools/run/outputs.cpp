@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -128,15 +129,40 @@ bool is_voxels(const OutputRequest& output, const ExportArguments& arguments) {
 }
 
 /// What makes a folder full of files may make the folder that they are in too.
-void make_tileset_folder(const OutputRequest& output, const std::string& format) {
+void make_tileset_folder(const std::string& path, const std::string& format) {
     const bool tiles = format == "VOXELTILES" || format == "TILES";
-    if (tiles && output.path == standard_output) {
+    if (tiles && path == standard_output) {
         throw UsageError("-: a tileset is a folder of files, which standard output cannot take");
     }
-    const fs::path folder = fs::path(output.path).parent_path();
+    const fs::path folder = fs::path(path).parent_path();
     std::error_code ignored;
     if (tiles && !folder.empty() && !fs::exists(folder, ignored)) {
         fs::create_directory(folder, ignored);  // require_writable says what went wrong
+    }
+}
+
+/// Two formats may put further files into one folder, NAME of NAME.ext, where their names differ; tilesets want theirs
+/// for themselves, and PFLOTRAN's two grids name their lists alike.
+void require_folders_of_their_own(const std::vector<std::pair<std::string, std::string>>& path_and_format) {
+    static const std::set<std::string> tiles{"TILES", "VOXELTILES"};
+    static const std::set<std::string> lists{"UGE", "UGI"};
+    static const std::set<std::string> others{"OGS", "PVD", "VTM"};
+    for (std::size_t i = 0; i < path_and_format.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto& [one, kind] = path_and_format[i];
+            const auto& [other, other_kind] = path_and_format[j];
+            const auto has_folder = [](const std::string& format) {
+                return tiles.contains(format) || lists.contains(format) || others.contains(format);
+            };
+            const bool clash = (tiles.contains(kind) && has_folder(other_kind)) ||
+                               (tiles.contains(other_kind) && has_folder(kind)) ||
+                               (lists.contains(kind) && lists.contains(other_kind));
+            if (clash && fs::path(one).replace_extension() == fs::path(other).replace_extension()) {
+                throw UsageError(
+                    fmt::format("{} and {}: both put files into the folder {}; give one of them another name", other,
+                                one, fs::path(one).replace_extension().string()));
+            }
+        }
     }
 }
 
@@ -155,14 +181,19 @@ bool names_model(const std::string& path) {
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                    const ExportArguments& arguments, const RunArguments& run) {
     std::vector<std::string> paths;
+    std::vector<std::pair<std::string, std::string>> formats;
     for (const auto& text : outputs) {
         if (names_model(text)) {
             paths.push_back(text);
         } else {
             const OutputRequest output = parse_output(text, arguments);
-            make_tileset_folder(output, output_format(output.path, format_of(output, arguments)));
             paths.push_back(output.path);
+            formats.emplace_back(output.path, output_format(output.path, format_of(output, arguments)));
         }
+    }
+    require_folders_of_their_own(formats);
+    for (const auto& [path, format] : formats) {
+        make_tileset_folder(path, format);
     }
     if (run.report == standard_output && std::ranges::find(paths, standard_output) != paths.end()) {
         throw UsageError("-: standard output cannot take an output and the report");

@@ -6,9 +6,10 @@
 //
 //   check_page.mjs PAGE.html PICTURE.png WORK
 //
-// WORK is JSON: {picks: [[x, y, z], …], cut: VALUE, property: NAME, hole: ID}, each optional. Fails when the page asks for
-// anything, says anything on the console, or does not come up.
+// WORK is JSON: {picks: [[x, y, z], …], cut: VALUE, property: NAME, hole: ID, controls: true}, each optional. Fails when
+// the page asks for anything, says anything on the console, or does not come up.
 import { spawn } from 'node:child_process';
+import { createHash } from 'node:crypto';
 import { writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -96,6 +97,47 @@ async function drag() {
   return { frames, seconds, before, after: await values() };
 }
 
+/** Uses each control once: what it changed, of picture, address and page. One that changes nothing is dead. */
+async function controls() {
+  const look = async () => {
+    await settle();
+    const { data } = await call('Page.captureScreenshot', { format: 'png' });
+    return { picture: createHash('sha256').update(data).digest('hex'), address: await run('location.hash'),
+             page: await run("document.body.outerHTML.replace(/<canvas[^>]*>/g, '')") };
+  };
+  // What hides or turns the rest comes last.
+  const count = await run("(window.controls = [...document.querySelectorAll('input, select'), ...[...document.querySelectorAll('button')].reverse()]).length");
+  const used = [];
+  let before = await look();
+  for (let i = 0; i < count; ++i) {
+    const name = await run(`(() => {
+      const c = window.controls[${i}];
+      const label = c.dataset.key || c.id || c.title || c.getAttribute('aria-label') || c.textContent || c.closest('label')?.innerText || c.outerHTML;
+      return c.tagName.toLowerCase() + (c.type ? ':' + c.type : '') + ' ' + label.trim().replace(/\\s+/g, ' ').slice(0, 60);
+    })()`);
+    const visible = await run(`(() => { const c = window.controls[${i}]; return c.isConnected && !c.disabled && c.offsetParent !== null; })()`);
+    if (!visible) { used.push({ name, visible }); continue; }
+    await run(`(() => {
+      const c = window.controls[${i}];
+      const tell = () => { for (const type of ['input', 'change']) c.dispatchEvent(new Event(type, { bubbles: true })); };
+      if (c.tagName === 'BUTTON' || c.type === 'checkbox' || c.type === 'radio') return c.click();
+      if (c.tagName === 'SELECT') c.selectedIndex = (c.selectedIndex + 1) % c.options.length;
+      else if (c.type === 'range') c.value = Number(c.min) + 0.3 * (Number(c.max) - Number(c.min));
+      else if (c.type === 'color') c.value = '#ff0000';
+      else c.value = c.type === 'number' ? Number(c.value || c.min || 0) + Number(c.step > 0 ? c.step : 1) : '1';
+      tell();
+    })()`);
+    const after = await look();
+    used.push({ name, visible, changed: Object.keys(before).filter((key) => before[key] !== after[key]) });
+    before = after;
+    if (/measure|help/.test(name)) {
+      await run(`window.controls[${i}].click()`);
+      before = await look();
+    }
+  }
+  return used;
+}
+
 const seen = {};
 let failed = '';
 try {
@@ -141,6 +183,7 @@ try {
     await settle();
     seen.property_legend = await text('.legend');
   }
+  if (work.controls) seen.controls = await controls();
   for (const key of ['e', 'i', 'f', 'b', '1', '2', '3', '0', 'ArrowRight', 'l', '?', 'Escape']) await run(`document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', { key: ${JSON.stringify(key)}, bubbles: true }))`);
   await settle();
   const last = await call('Page.captureScreenshot', { format: 'png' });

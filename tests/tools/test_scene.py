@@ -72,11 +72,18 @@ class Page(Case):
                              capture_output=True, text=True, check=True).stdout
         return [float(x) for x in out.split()]
 
-    def compare(self, name, property_name, cut, *options, hole=None):
+    def each_does_something(self, controls, at_least):
+        """Picture, address or page tell of each; saving a picture alone leaves all three."""
+        names = [control["name"] for control in controls if control["visible"]]
+        self.assertGreaterEqual(len(names), at_least, names)
+        dead = [control["name"] for control in controls if control["visible"] and not control["changed"]]
+        self.assertEqual(dead, ["button:submit save"])
+
+    def compare(self, name, property_name, cut, *options, hole=None, **work):
         """Values at vertices to 1e-5, the volume above the cut-off to 0.1 %."""
         rows = self.vertices(5)
         seen = self.look(name, picks=[[float(row[axis]) for axis in "xyz"] for row in rows], cut=cut, hole=hole,
-                         property="extrapolation")
+                         property="extrapolation", **work)
         for pick, answer in zip(seen["picks"], self.ask(rows)):
             said = float(pick[property_name].split()[0].replace("\u2212", "-"))
             self.assertAlmostEqual(said / float(answer[property_name]), 1, delta=1e-5)
@@ -91,7 +98,8 @@ class Page(Case):
 
     def test_the_twin_in_decades_with_a_fault(self):
         self.succeed("convert", *twin_inputs(), "m.gpkg", "twin.html")
-        seen = self.compare("twin", "K", 1e-10, "--log10", hole="OT-02")
+        seen = self.compare("twin", "K", 1e-10, "--log10", hole="OT-02", controls=True)
+        self.each_does_something(seen["controls"], 35)
         self.assertIn("K [m/s]", seen["legend"])
         self.assertIn("1e-10", seen["legend"].replace("\u2212", "-"))
         self.assertIn("EPSG:3067", seen["crs"])
@@ -116,7 +124,9 @@ class Page(Case):
                      "--property", "rock:categorical", "-te", "0", "0", "-100", "200", "200", "0", "--lmin", "10", "--estimator", "nearest",
                      "m.gpkg", "rocks.html", "rocks.glb")
         rows = self.vertices(6)
-        seen = self.look("rocks", picks=[[float(row[axis]) for axis in "xyz"] for row in rows], hole="H3", property="block")
+        seen = self.look("rocks", picks=[[float(row[axis]) for axis in "xyz"] for row in rows], hole="H3", property="block",
+                         controls=True)
+        self.each_does_something(seen["controls"], 36)
         for pick, answer in zip(seen["picks"], self.ask(rows)):
             self.assertEqual(pick["rock"], answer["rock"])
             self.assertRegex(pick["block"], "region [01]")

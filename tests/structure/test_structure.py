@@ -143,6 +143,15 @@ class Structure(unittest.TestCase):
         self.assertEqual([f"{room}: {n}" for room, n in self.house.rooms().items() if n > LARGEST_ROOM], [])
         self.assertLessEqual(statistics.median(lines.values()), MEDIAN_FILE)
 
+    def test_the_page_on_the_design_names_every_room_and_only_files_that_are_there(self):
+        page = (ROOT / "docs" / "design.md").read_text("utf-8")
+        rows = {row.split("`")[1]: row for row in page.splitlines() if row.startswith("| `")}
+        self.assertEqual([f"{floor}/{room}" for floor, rooms in FLOORS.items() for room in rooms
+                          if f"`{room}`" not in rows[floor]], [])
+        named = re.findall(r"\b(?:tess|interp|io|tools)/[\w/]+\.[ch]pp\b", page)
+        self.assertGreater(len(named), 15)
+        self.assertEqual([name for name in named if not (ROOT / name).exists()], [])
+
     def test_lines_end_at_120_characters(self):
         files = [path for folder in [*FLOORS, "tests"] for path in (ROOT / folder).rglob("*.[ch]pp")]
         files += [*ROOT.glob("docs/*.md"), ROOT / "CONTRIBUTING.md", *ROOT.glob("data/*/README.md")]  # not docs/commands: made

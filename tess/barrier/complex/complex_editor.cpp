@@ -300,7 +300,7 @@ bool ComplexEditor::keeps_shape(std::uint32_t u, std::uint32_t v, bool forced) c
     return true;
 }
 
-bool ComplexEditor::collapse(std::uint32_t u, std::uint32_t v) {
+bool ComplexEditor::contract(std::uint32_t u, std::uint32_t v) {
     const std::vector<std::uint32_t> of_edge = edge_triangles(u, v);
     if (of_edge.empty() || !may_join(u, v)) {
         return false;

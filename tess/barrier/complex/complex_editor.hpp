@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// A fault complex under edition: edges split, collapsed and flipped, points moved and merged, while rims and
+/// A fault complex under edition: edges split, contracted and flipped, points moved and merged, while rims and
 /// junctions stay what they are. Whatever is done, sheets that share a junction go on sharing its points.
 
 #include <cstdint>
@@ -88,7 +88,7 @@ class ComplexEditor {
     std::uint32_t split_triangle(std::uint32_t t, const Vec3& at);
 
     /// Moves u into v if the shapes, the topology and the kinds of the two allow it.
-    bool collapse(std::uint32_t u, std::uint32_t v);
+    bool contract(std::uint32_t u, std::uint32_t v);
 
     /// Makes one point of two, come what may; triangles that coincide then become one: that of a bound if there is one.
     /// \pre may_join(from, into)

@@ -22,7 +22,7 @@ namespace terratet {
 namespace {
 
 constexpr double longest = 4.0 / 3;   ///< of the wanted edge length: split above
-constexpr double shortest = 0.7;      ///< collapse below
+constexpr double shortest = 0.7;      ///< contract below
 constexpr double corner_turn = 1.05;  ///< radians: rims and junctions that turn more keep a node there
 constexpr int rounds = 6;
 constexpr int later_rounds = 2;  ///< from triangles that suit all but the newest wishes
@@ -72,7 +72,7 @@ using LineTarget = Target<Kernel::Segment_3, CGAL::AABB_segment_primitive>;
 
 class SheetRemesher::Impl {
   public:
-    Impl(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later, std::span<const char> bounds)
+    Impl(const SheetComplex& complex, const SizeField& sizes, double snap, Contract later, std::span<const char> bounds)
         : numbering_(patches(complex, EdgeTable(complex.triangles))),
           editor_(complex, numbering_, sizes, bounds),
           mender_(editor_),
@@ -92,11 +92,11 @@ class SheetRemesher::Impl {
         }
         for (int round = 0; round < (first ? rounds : later_rounds); ++round) {
             split_long();
-            collapse_short(later_);
+            contract_short(later_);
             if (!first || round > 0) {
                 mender_.flatten_thin();
                 mender_.snap_close(snap_);
-                collapse_short(later_);
+                contract_short(later_);
             }
             flip_all(4);
             for (int step = 0; step < 3; ++step) {
@@ -215,12 +215,12 @@ class SheetRemesher::Impl {
         }
     }
 
-    void collapse_short(Collapse where = Collapse::where_changed) {
+    void contract_short(Contract where = Contract::where_changed) {
         for (int pass = 0; pass < 4; ++pass) {
             ask(poll_);
             auto edges = editor_.edges();
             std::erase_if(edges, [&](const auto& e) {
-                return (where == Collapse::where_changed && !editor_.awake(e[0]) && !editor_.awake(e[1])) ||
+                return (where == Contract::where_changed && !editor_.awake(e[0]) && !editor_.awake(e[1])) ||
                        editor_.edge_length(e[0], e[1]) > shortest * editor_.target(e[0], e[1]);
             });
             sort_by_length(edges);
@@ -232,7 +232,7 @@ class SheetRemesher::Impl {
                 if (editor_.classify(u).kind > editor_.classify(v).kind) {
                     std::swap(u, v);
                 }
-                const bool done = editor_.collapse(u, v) || editor_.collapse(v, u);
+                const bool done = editor_.contract(u, v) || editor_.contract(v, u);
                 any = any || done;
             }
             if (!any) {
@@ -323,7 +323,7 @@ class SheetRemesher::Impl {
             }
             mender_.flatten_thin();
             mender_.snap_close(std::min(snap_ + 0.02 * (repair + 1), 0.3));
-            collapse_short();
+            contract_short();
             flip_all(3);
             if (repair % 2 == 1) {
                 smooth(0.3);
@@ -422,14 +422,14 @@ class SheetRemesher::Impl {
     ComplexMender mender_;
     const SizeField& sizes_;
     double snap_;
-    Collapse later_;
+    Contract later_;
     int passes_ = 0;
     Poll poll_;
     std::vector<std::unique_ptr<PatchTarget>> surfaces_;
     std::map<Ties, LineTarget> lines_;  ///< rims and junctions, by the bounds they are on
 };
 
-SheetRemesher::SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later,
+SheetRemesher::SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Contract later,
                              std::span<const char> bounds)
     : impl_(std::make_unique<Impl>(complex, sizes, snap, later, bounds)) {}
 

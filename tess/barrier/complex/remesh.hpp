@@ -16,15 +16,15 @@ namespace terratet {
 /// Sheets under remeshing, to be gone on with when other sizes are wanted or a surface is left out.
 class SheetRemesher {
   public:
-    /// In later passes short edges, left over from smoothing, are collapsed where sizes have changed, or everywhere.
+    /// In later passes short edges, left over from smoothing, are contracted where sizes have changed, or everywhere.
     /// The former keeps triangles as regular as they are, which certificates depend on (exact mode); the latter keeps
     /// their points, and so mirrored pairs, from standing too close (paired mode).
-    enum class Collapse { where_changed, everywhere };
+    enum class Contract { where_changed, everywhere };
 
     /// Points nearer than `snap` edge lengths to a sheet they do not belong to are merged into it. `sizes` must outlive
     /// the remesher and may change between passes. `bounds`, by sheet, marks those the model ends at: they go before
     /// all others, whose points join them and never the other way round, so that bounds in a plane stay in it.
-    SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Collapse later,
+    SheetRemesher(const SheetComplex& complex, const SizeField& sizes, double snap, Contract later,
                   std::span<const char> bounds = {});
     ~SheetRemesher();
 
@@ -33,7 +33,7 @@ class SheetRemesher {
         std::vector<std::array<std::uint32_t, 2>> crossings;  ///< left over: triangles of the complex
     };
 
-    /// Near-equilateral triangles of the wanted edge length (split above 4/3 of it, collapse below 0.7, Delaunay flips,
+    /// Near-equilateral triangles of the wanted edge length (split above 4/3 of it, contract below 0.7, Delaunay flips,
     /// points centred and projected back onto the sheets as given; after Botsch and Kobbelt 2004, carried over to edges
     /// with any number of triangles). Snapping zips wedges below about 15°; rounds of that follow until no triangles
     /// cross and no wedge is below 10°, or nothing helps. Deterministic. About 0.3 ms a point the first time; later

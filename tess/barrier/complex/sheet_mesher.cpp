@@ -70,7 +70,7 @@ SheetRemesher::Result SheetMesher::mesh(const Poll& poll) {
         staying_ = {};
         remesher_ = std::make_unique<SheetRemesher>(
             sizes_.uniform() ? without_staying() : cut_, sizes_, zip,
-            mode_ == SeedMode::exact ? SheetRemesher::Collapse::where_changed : SheetRemesher::Collapse::everywhere,
+            mode_ == SeedMode::exact ? SheetRemesher::Contract::where_changed : SheetRemesher::Contract::everywhere,
             bounds_);
     }
     SheetRemesher::Result result = remesher_->pass(poll);

@@ -42,6 +42,7 @@ struct Calibration {
     std::size_t boreholes = 0;    ///< that were left out; blocks of loose samples count as one each
     std::size_t samples = 0;      ///< whose errors were seen; 0: nothing is known, and the factors say nothing
 
+    /// The size of errors at an estimate over the usual one; 1 without levels, the outermost level's beyond them.
     [[nodiscard]] double relative(double estimate) const;
 
     /// \param deviation  the method's own figure

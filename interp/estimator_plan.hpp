@@ -43,7 +43,9 @@ struct EstimatorPlan {
     EstimatorPlan() = default;
     EstimatorPlan(EstimatorSpec spec) : general(std::move(spec)) {}  // NOLINT: one for all is the usual plan
 
+    /// Its own, or the general one.
     [[nodiscard]] const EstimatorSpec& of(const std::string& property) const;
+    /// What the model keeps, a line a property and fact; parse_estimator_plan() brings it back.
     [[nodiscard]] std::string to_string() const;
 };
 

@@ -48,6 +48,7 @@ class LiveModel {
     /// The value of each property at one place, likewise; NaN where there is none.
     [[nodiscard]] std::vector<double> value_at(const Vec3& place) const;
 
+    /// The vertices next to a borehole's own (ModelSnapshot::neighbours_of), as indices into model().vertices.
     [[nodiscard]] std::vector<std::uint32_t> neighbours_of(const std::string& borehole) const {
         return snapshot()->neighbours_of(borehole);
     }

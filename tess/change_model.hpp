@@ -34,6 +34,7 @@ struct ModelPlan {
     std::string estimator;  ///< as it was fitted, or another specification
 };
 
+/// The model as it is: what an edit starts from.
 ModelPlan plan_of(const Model& model);
 
 /// Can change_model do it? Criteria that hold everywhere, density, estimator and barrier options ask for a build.
@@ -46,6 +47,7 @@ struct VertexChanges {
     std::vector<std::uint64_t> changed;  ///< other place, role, owner's side or values
 };
 
+/// By ids. O(n). \pre ids ascend in both
 VertexChanges vertex_changes(const Model& before, const Model& after);
 
 /// Values of the next state, and where they differ from those before.

@@ -152,6 +152,7 @@ std::vector<OutputRecord> write_voxels(const BrickSource& source, const VoxelGri
     }
     stream_bricks(source, all, options.progress, options.ranks);
     std::vector<OutputRecord> records;
+    records.reserve(sinks.size());
     for (auto& sink : sinks) {
         sink->close();
     }

@@ -179,7 +179,7 @@ Crs utm_of_middle(const Inputs& read, Diagnostics& diagnostics) {
     }
     const double longitude = middle_longitude(longitudes);
     const double latitude = extent.center().y;
-    const Crs zone = utm_zone(longitude, latitude);
+    Crs zone = utm_zone(longitude, latitude);
     diagnostics.note(fmt::format(
         "all inputs are in longitude and latitude; the model is in {} (-t_srs chooses another); its middle "
         "is at {:.4f}° {}, {:.4f}° {}",

@@ -168,6 +168,7 @@ std::vector<Surface> surfaces_of_sticks(const std::vector<Trace>& traces) {
         std::ranges::copy(trace.lines, std::back_inserter(sticks[trace.name]));
     }
     std::vector<Surface> surfaces;
+    surfaces.reserve(sticks.size());
     for (auto& [name, lines] : sticks) {
         surfaces.push_back(surface_of_sticks(name, std::move(lines)));
     }

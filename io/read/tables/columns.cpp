@@ -72,8 +72,8 @@ void require_known_meanings(const ColumnNames& overrides) {
     for (const auto& [meaning, column] : overrides) {
         if (std::ranges::find(meaning_names, joined(words_of(meaning))) == meaning_names.end()) {
             const auto known = names_of(meaning_names, std::identity());
-            throw UsageError("`columns` " + meaning + "=" + column + ": no such meaning; there are " + listed(known) +
-                             did_you_mean(meaning, known));
+            throw UsageError(std::string("`columns` ").append(meaning).append("=").append(column) +
+                             ": no such meaning; there are " + listed(known) + did_you_mean(meaning, known));
         }
     }
 }

@@ -40,7 +40,8 @@ std::vector<double> decade_ticks(const ColorRange& range) {
     std::vector<double> values;
     const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
     const bool between = decades < 3;
-    for (double d = std::floor(range.low); d <= range.high; ++d) {
+    for (int whole = static_cast<int>(std::floor(range.low)); whole <= range.high; ++whole) {
+        const double d = whole;
         for (const double digit : {1.0, 2.0, 5.0}) {
             const double exponent = d + std::log10(digit);
             const bool wanted = digit == 1 ? std::fmod(d, every) == 0 : between;

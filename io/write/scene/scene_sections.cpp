@@ -139,11 +139,13 @@ ScenePart section_part(const SceneCells& cells, const Section& section, const Co
     // At 1 the samples do not reach at all.
     const double reach = max_extrapolation < 1 ? max_extrapolation : 1 - 1e-9;
     std::vector<double> nearness;
+    nearness.reserve(cells.extrapolation.size());
     for (const double e : cells.extrapolation) {
         nearness.push_back(-e);
     }
     paint(part, part_above(cut, nearness, -reach), cells, coloring, frame);
     std::vector<double> farness;
+    farness.reserve(nearness.size());
     for (const double e : nearness) {
         farness.push_back(-e);
     }

@@ -56,6 +56,13 @@ class SeveralRanks(Case):
             self.same_at_any_count("export", "m.gpkg", *outputs[:3], "a.csv,of=BLOCKS", "-tr", 20 if more else 9, "-q", *more,
                                    outputs=outputs)
 
+    def test_values_at_a_grid_and_at_a_mesh_have_the_same_bytes(self):
+        self.succeed("export", "m.gpkg", "g.nc", "g.vtu", "-tr", "20", "-q")
+        self.same_at_any_count("resample", "m.gpkg", "--onto", "g.nc", "a.nc", "a.vdb", "a.csv", "-q",
+                               outputs=["a.nc", "a.vdb", "a.csv"])
+        self.same_at_any_count("resample", "m.gpkg", "--onto", "g.vtu", "a.vtu", "a.csv", "-q", outputs=["a.vtu", "a.csv"])
+        self.same_at_any_count("export", "g.nc", "b.vdb", "-q", outputs=["b.vdb"])
+
     def test_what_is_no_voxels_is_written_once(self):
         self.same_at_any_count("export", "m.gpkg", "a.vtu", "a.vdb", "-tr", 40, outputs=["a.vtu", "a.vdb"])
 

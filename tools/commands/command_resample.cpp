@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Terratet authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/ranks/ranks.hpp"
+#include "io/onto/read_place_mesh.hpp"
 #include "io/source.hpp"
 #include "tess/error.hpp"
 #include "tools/options/command.hpp"
@@ -27,6 +29,11 @@ class Resample final : public Command {
         return syntax;
     }
 
+    bool share_among(const Ranks& ranks) override {
+        run_.ranks = &ranks;
+        return true;
+    }
+
     int run(const std::vector<Given>&) override {
         if (onto_.empty()) {
             throw UsageError("--onto: name the grid whose places are wanted");
@@ -34,7 +41,14 @@ class Resample final : public Command {
         const std::string& input = paths_.front();
         const std::vector<std::string> outputs(paths_.begin() + 1, paths_.end());
         exporting_.voxels = true;
-        check_outputs(outputs, {input, onto_}, exporting_, run_);
+        const bool writes = run_.ranks == nullptr || run_.ranks->is_root();
+        if (writes) {
+            check_outputs(outputs, {input, onto_}, exporting_, run_);
+        }
+        start_together(run_.ranks);
+        if (!writes && (names_mesh(parse_source(onto_).path) || exporting_.dry_run)) {
+            return exit_done;  // what is shared are voxels
+        }
         const ThreadLimit threads(run_.threads);
         LiveModel live = open_model(input, accept_edited_);
         if (exporting_.uncertainty) {

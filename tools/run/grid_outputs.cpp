@@ -48,9 +48,10 @@ std::vector<VoxelOutput> voxel_outputs(const std::vector<std::string>& texts, co
 }
 
 void write_all(const BrickSource& source, const VoxelGrid& grid, const std::vector<VoxelOutput>& outputs,
-               const ExportArguments& arguments, const RunArguments& run, const Model& model) {
+               const ExportArguments& arguments, const RunArguments& run, const Model& model, const Ranks* ranks) {
     ExportOptions options = writer_options(arguments, model);
     options.overwrite = run.overwrite;
+    options.ranks = ranks;
     for (const VoxelOutput& output : outputs) {
         const VoxelPlan plan = plan_voxels(grid, output, options);
         const std::string line = fmt::format("{}: {} × {} × {} voxels, at most {}", plan.path, plan.voxels[0],
@@ -130,7 +131,7 @@ void export_grid(const std::string& input, const std::vector<std::string>& texts
         throw UsageError("--uncertainty: a grid has the values that it has; models have deviations");
     }
     const auto source = read_grid(parse_source(input), "", outputs.front().path);
-    write_all(*source, source->grid(), outputs, arguments, run, {});
+    write_all(*source, source->grid(), outputs, arguments, run, {}, nullptr);  // reading is all there is to it
 }
 
 void resample_onto(const ModelSnapshot& model, const std::string& onto, const std::vector<std::string>& texts,
@@ -146,7 +147,7 @@ void resample_onto(const ModelSnapshot& model, const std::string& onto, const st
         has_derived_properties(model.model()) ? model.estimator_with_errors() : model.estimator();
     const ModelAtGrid source(model.model(), model.barriers(), estimator, places->grid(),
                              options.max_extrapolation.value_or(std::numeric_limits<double>::infinity()));
-    write_all(source, source.grid(), outputs, arguments, run, model.model());
+    write_all(source, source.grid(), outputs, arguments, run, model.model(), run.ranks);
 }
 
 }  // namespace terratet::tools

@@ -3,9 +3,11 @@
 """Pages say what the program says: help in docs/commands, commands of the tutorial, the README's program.
 
 TERRATET_UPDATE_DOCS=1 writes the help into the pages instead of comparing."""
+import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import unittest
 
@@ -57,6 +59,37 @@ class Documents(Case):
             if "--dry-run" not in row:
                 for name in row.split("site.gpkg ")[1].split():
                     self.assertGreater((self.folder / name.split(",of=")[0]).stat().st_size, 0, row)
+
+    def test_the_papers_experiment_gives_the_figures_of_its_page(self):
+        page = (DOCS / "olkiluoto.md").read_text("utf-8")
+        command = re.search(r"^    (terratet convert.*?twin\.csv)$", page, re.S | re.M)[1]
+        options = shlex.split(command.replace("\\\n", " "))[2:]
+        policy = options[options.index("--density"):options.index("--report")]
+        for name in ("collar.csv", "survey.csv", "log.csv", "fracture.ts"):
+            (self.folder / name).symlink_to(ROOT / "data" / "olkiluoto-twin" / name)
+        columns = {}
+        for column, given in ((3, options), (4, [word for word in options if word not in policy])):
+            self.succeed("convert", "--overwrite", *given)
+            columns[column] = json.loads((self.folder / "report.json").read_text())
+        for row, figures in {
+            "borehole samples kept": lambda r: [r["preprocess"]["samples_kept"]],
+            "vertices on the domain": lambda r: [r["preprocess"]["domain_vertices"]],
+            "initial vertices": lambda r: [r["initial"]["vertices"], r["initial"]["tetrahedra"]],
+            "skinny / flat at first": lambda r: [r["initial"]["skinny_percent"], r["initial"]["flat_percent"]],
+            "vertices inserted": lambda r: [r["refine"]["inserted"]],
+            "final vertices": lambda r: [r["final"]["vertices"], r["final"]["tetrahedra"]],
+            "skinny / flat in the end": lambda r: [r["final"]["skinny_percent"], r["final"]["flat_percent"]],
+            "smallest dihedral": lambda r: [r["final"]["dihedral_deg"]["min"], r["final"]["dihedral_deg"]["p1"]],
+            "edges across": lambda r: [r["final"]["fault_crossing_edges"]],
+            "linear field": lambda r: [r["fidelity"]["K"]["rms"]],
+        }.items():
+            cells = next(line for line in page.splitlines() if line.startswith("| " + row)).split("|")
+            for column, report in columns.items():
+                said = re.findall(r"\d[\d\u00a0 ]*\.?\d*", cells[column].replace("1 %", ""))
+                numbers = [re.sub(r"\s", "", text) for text in said]
+                places = [len(text.partition(".")[2]) for text in numbers]
+                found = [f"{value:.{digits}f}" for value, digits in zip(figures(report), places)]
+                self.assertEqual(numbers, found, (row, column))
 
     def test_the_readmes_program_is_the_one_that_the_install_test_builds(self):
         program = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(), re.S)[1]

@@ -13,6 +13,7 @@
 #include "tess/edit/build_defaults.hpp"
 #include "tess/edit/build_tolerance.hpp"
 #include "tess/edit/close_crossings.hpp"
+#include "tess/edit/default_spacing.hpp"
 #include "tess/edit/given_values.hpp"
 #include "tess/edit/vertex_demand.hpp"
 #include "tess/error.hpp"
@@ -201,7 +202,7 @@ std::unique_ptr<TessellatedModel> build(Site site, const BuildOptions& options, 
     model.estimator = options.estimator;
     {
         const Stopwatch watch(report.seconds["boundary"]);
-        prepare_boundary(options, model, report, progress);
+        prepare_boundary_at_default_spacing(options, model, report, progress);
         name_regions(options, model);
     }
     const Criteria criteria = model.criteria;

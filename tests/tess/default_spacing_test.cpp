@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "tess/barrier_query.hpp"
 #include "tests/tess/fault_cases.hpp"
@@ -28,9 +29,11 @@ Model site_with(std::vector<Surface> faults, int close = 0) {
     return model;
 }
 
-Surface wall(double amplitude = 0) {
-    return testing::gridded("wall", 100, 100, [&](double u, double v) {
-        return Vec3{50 + amplitude * std::sin(80 * u), 120 * u - 10, 120 * v - 10};
+/// In the middle of the site.
+Surface wall(double size = 120, double amplitude = 0) {
+    return testing::gridded("wall", amplitude > 0 ? 60 : 6, 6, [=](double u, double v) {
+        const double along = (u - 0.5) * size;
+        return Vec3{50 + amplitude * std::sin(along * 2 * std::numbers::pi / 8), 50 + along, 50 + (v - 0.5) * size};
     });
 }
 
@@ -72,16 +75,24 @@ TEST_CASE("A sample that would stay at L_min stays at the wider spacing as well"
 
 TEST_CASE("The faults' spacing is L_min where a wider one would cost samples, or the surface's shape") {
     BuildReport report;
-    SECTION("samples, in exact mode, which makes no room for them") {
-        Model model = site_with({wall()}, 30);
-        BuildOptions options;
-        options.barriers.mode = SeedMode::exact;
+    BuildOptions options;
+    options.barriers.mode = SeedMode::exact;  // which makes no room for samples
+    SECTION("nothing") {
+        Model model = site_with({wall(48)});
+        CHECK(prepared(model, report, options) > 1.4 * l_min);
+    }
+    SECTION("samples") {
+        Model model = site_with({wall(48)}, 30);
+        for (Vec3& p : model.samples.positions) {
+            p.x = p.x > 50 ? 50.9 : p.x;
+            p.y = 50 + (p.y - 50) * 0.4;
+            p.z = 50 + (p.z - 50) * 0.4;
+        }
         CHECK(prepared(model, report, options) == l_min);
     }
-    SECTION("waves that only L_min follows") {
-        Model model = site_with({wall(1.2)});
-        CHECK(prepared(model, report) == l_min);
-        CHECK_FALSE(model.barrier_options.refine);
+    SECTION("shape") {
+        Model model = site_with({wall(48, 1.1)});
+        CHECK(prepared(model, report, options) == l_min);
     }
 }
 

@@ -73,24 +73,29 @@ TEST_CASE("A sample that would stay at L_min stays at the wider spacing as well"
     }
 }
 
-TEST_CASE("The faults' spacing is L_min where a wider one would cost samples, or the surface's shape") {
+TEST_CASE("In exact mode, which makes no room for samples, the spacing is so much less that they stay") {
+    BuildOptions options;
+    options.barriers.mode = SeedMode::exact;
+    for (const bool near : {false, true}) {
+        Model model = site_with({wall()}, near ? 30 : 0);
+        for (Vec3& p : model.samples.positions) {
+            p.x += p.x > 50 ? 0.5 : 0;
+        }
+        BuildReport report;
+        const double widest = model.criteria.l_max / std::sqrt(2.0);
+        CHECK(prepared(model, report, options) == Approx(near ? widest / 1.5 : widest));
+    }
+}
+
+TEST_CASE("The faults' spacing is L_min where a wider one would cost the surface's shape") {
     BuildReport report;
     BuildOptions options;
-    options.barriers.mode = SeedMode::exact;  // which makes no room for samples
-    SECTION("nothing") {
+    options.barriers.mode = SeedMode::exact;  // which keeps bends
+    SECTION("flat") {
         Model model = site_with({wall(48)});
         CHECK(prepared(model, report, options) > 1.4 * l_min);
     }
-    SECTION("samples") {
-        Model model = site_with({wall(48)}, 30);
-        for (Vec3& p : model.samples.positions) {
-            p.x = p.x > 50 ? 50.9 : p.x;
-            p.y = 50 + (p.y - 50) * 0.4;
-            p.z = 50 + (p.z - 50) * 0.4;
-        }
-        CHECK(prepared(model, report, options) == l_min);
-    }
-    SECTION("shape") {
+    SECTION("waves") {
         Model model = site_with({wall(48, 1.1)});
         CHECK(prepared(model, report, options) == l_min);
     }

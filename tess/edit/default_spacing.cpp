@@ -19,7 +19,7 @@ constexpr double protection_share = 0.75;  ///< protection radius at L_min, in L
 
 bool is_free(const BuildOptions& options, const Model& model) {
     const BarrierOptions& asked = options.barriers;
-    return asked.spacing == 0 && asked.width == 0 && asked.snap == 0 && !options.separate_faults &&
+    return options.separate_faults && asked.spacing == 0 && asked.width == 0 && asked.snap == 0 &&
            std::ranges::none_of(model.surfaces, [](const Surface& surface) { return is_bound(surface.kind); });
 }
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file
-/// How fine faults are drawn where nobody says. L_min does for most sites; where faults are large and samples few,
-/// seeds at L_min would be most of the model, and say nothing that coarser ones do not.
+/// How fine faults are drawn where that is left to be chosen (BuildOptions::separate_faults). L_min does for most
+/// sites; where faults are large and samples few, seeds at L_min would be most of the model, and say nothing that
+/// coarser ones do not.
 
 #include "tess/build_options.hpp"
 #include "tess/progress.hpp"

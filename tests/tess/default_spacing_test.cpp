@@ -38,7 +38,8 @@ Surface wall(double size = 120, double amplitude = 0) {
 }
 
 /// The spacing chosen, 0 for that asked for.
-double prepared(Model& model, BuildReport& report, const BuildOptions& options = {}) {
+double prepared(Model& model, BuildReport& report, BuildOptions options = {}) {
+    options.separate_faults = options.barriers.spacing == 0;
     prepare_boundary_at_default_spacing(options, model, report, {});
     return model.barrier_options.spacing;
 }
@@ -106,7 +107,7 @@ TEST_CASE(
     BuildReport report;
     SECTION("small") {
         Model model = site_with({testing::rectangle("small", {50, 50, 50}, {0, 20, 0}, {0, 0, 20})});
-        CHECK(prepared(model, report) == 0);
+        CHECK(prepared(model, report) == l_min);
     }
     SECTION("given") {
         Model model = site_with({wall()});
@@ -123,7 +124,7 @@ TEST_CASE(
                 model.samples.positions.push_back(p + Vec3{0, 0, 0.01 * i});
             }
         }
-        CHECK(prepared(model, report) == 0);
+        CHECK(prepared(model, report) == l_min);
     }
 }
 

@@ -232,8 +232,9 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               one_of(a.build.barriers.mode, {{"paired", SeedMode::paired}, {"exact", SeedMode::exact}})},
              {{"fault-spacing"},
               "LENGTH",
-              "between a fault's points; by default --lmin, or more where faults are large, samples few and nothing is "
-              "lost; auto: less where faults run too close together for that, if it can be afforded",
+              "between a fault's points; by default --lmin; auto: less where faults run too close together for that, "
+              "if "
+              "it can be afforded",
               Parsed{[&a](const std::string& text) { take_spacing(text, a); }, "length"}},
              {{"fault-width"},
               "LENGTH",

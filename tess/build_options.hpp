@@ -32,7 +32,9 @@ struct BuildOptions {
     DensityMode density = DensityMode::canonical;
     std::vector<RegionName> region_names;  ///< points frame-local
     BarrierOptions barriers;
-    bool separate_faults = false;  ///< faults that run side by side and nowhere meet lower the spacing where affordable
+    /// The spacing is chosen: faults that run side by side and nowhere meet lower it where affordable, few samples for
+    /// many seeds widen it (tess/edit/default_spacing.hpp).
+    bool separate_faults = false;
     RefineOptions refine;
     bool refine_enabled = true;  ///< false stops after the initial tessellation
     std::string estimator;       ///< recorded in the model; the source below does the work

@@ -80,7 +80,7 @@ PropertyLimit parse_limit(const std::string& text) {
     return {text.substr(0, equals), *limit};
 }
 
-/// A spacing, or "auto": as it is by default, and less where faults run side by side.
+/// A spacing, or "auto": less where faults run side by side, more where samples are few for so many seeds.
 void take_spacing(const std::string& text, ModelArguments& a) {
     a.build.separate_faults = text == "auto";
     a.fault_spacing = a.build.separate_faults ? std::nullopt : std::optional(parse_positive_length(text));
@@ -234,7 +234,7 @@ std::vector<OptionGroup> model_options(ModelArguments& a) {
               "LENGTH",
               "between a fault's points; by default --lmin; auto: less where faults run too close together for that, "
               "if "
-              "it can be afforded",
+              "it can be afforded, and more where few samples would have many",
               Parsed{[&a](const std::string& text) { take_spacing(text, a); }, "length"}},
              {{"fault-width"},
               "LENGTH",
